@@ -1,0 +1,37 @@
+# One target per folder of the house. Every include names the folder,
+# #include "plume/mesh/mesh.h", in this tree as in an installed one: here,
+# build/include/plume is a link to the source directory.
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+file(MAKE_DIRECTORY ${CMAKE_BINARY_DIR}/include)
+file(CREATE_LINK ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/include/plume SYMBOLIC)
+
+# Flags that every target of ours shares.
+function(plume_flags target)
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_BINARY_DIR}/include>)
+  target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wpedantic)
+  # A product that is fused in one place and not in another would let two
+  # places decide differently about the same edge (docs/architecture.md).
+  target_compile_options(${target} PRIVATE -ffp-contract=off)
+  if(PLUME_WARNINGS_AS_ERRORS)
+    target_compile_options(${target} PRIVATE -Werror)
+  endif()
+endfunction()
+
+# plume_folder(mesh SOURCES a.cpp b.cpp LINK other libraries)
+function(plume_folder name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;LINK_PRIVATE" ${ARGN})
+  add_library(plume_${name} STATIC ${ARG_SOURCES})
+  add_library(plume::${name} ALIAS plume_${name})
+  set_target_properties(plume_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
+  plume_flags(plume_${name})
+  target_link_libraries(plume_${name} PUBLIC ${ARG_LINK} PRIVATE ${ARG_LINK_PRIVATE})
+endfunction()

@@ -1,0 +1,16 @@
+/// Meshes into files.
+#pragma once
+
+#include <filesystem>
+
+#include "plume/mesh/mesh.h"
+
+namespace plume {
+
+/// Writes .vtu (explicit cells or a grid), .vts (a grid) or .vtk (either; binary legacy).
+///
+/// The file appears under its name only when it is whole: it is written beside it and renamed.
+/// Throws Error for another extension, an unwritable place, a grid asked of explicit cells.
+void write_mesh(const Mesh& mesh, const std::filesystem::path& file);
+
+}  // namespace plume

@@ -1,0 +1,35 @@
+/// What render() returns.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace plume {
+
+/// A further channel of an image, one float per pixel.
+struct Channel {
+  std::string name;
+  std::vector<float> values;
+};
+
+/// Linear RGBA, premultiplied by alpha, 32-bit float; the first row is the top of the picture.
+struct Image {
+  int width = 0;
+  int height = 0;
+  /// 4 * width * height values, interleaved.
+  std::vector<float> rgba;
+  /// What was asked for besides: "depth" (distance along the ray to the first contribution,
+  /// +infinity where there is none), "optical_depth", "cell_id" (the first cell that contributes,
+  /// -1 where there is none), "cell_count", ... each of width * height values.
+  std::vector<Channel> channels;
+
+  const float* pixel(int x, int y) const {
+    return &rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+                      static_cast<std::size_t>(x))];
+  }
+  /// The channel of that name, or null.
+  const Channel* channel(const std::string& name) const;
+};
+
+}  // namespace plume

@@ -1,0 +1,39 @@
+/// A transfer function: what a scalar value looks like.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plume {
+
+/// Optical properties at one scalar value.
+struct Optics {
+  /// Extinction per unit of length, >= 0 and finite.
+  float extinction = 0;
+  /// Linear RGB (Rec. 709 primaries), >= 0. What an opaque slab of this value would show: the
+  /// source term of the volume rendering integral is color * extinction.
+  std::array<float, 3> color{0, 0, 0};
+};
+
+/// Extinction and colour over the scalar axis, both piecewise linear between knots and constant
+/// beyond the first and the last. Two knots at the same scalar make a step; at the step itself the
+/// later one holds.
+struct TransferFunction {
+  struct Knot {
+    float scalar = 0;
+    Optics optics;
+  };
+  std::vector<Knot> knots;
+
+  /// What is wrong with the knots, in one line that names the knot; nothing where all is well: at
+  /// least one knot, scalars finite and in ascending order (not more than two equal), extinction
+  /// finite and >= 0, colours finite and >= 0.
+  std::optional<std::string> problem() const;
+
+  /// Optics at a scalar value; NaN is transparent. Requires !problem().
+  Optics at(float scalar) const;
+};
+
+}  // namespace plume
