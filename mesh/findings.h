@@ -1,0 +1,30 @@
+/// What building a walkable mesh found: nothing that stops a ray, but what a user should know.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace plume {
+
+/// One kind of problem, with the first few cells (numbers of the user's mesh) as examples.
+struct Finding {
+  std::string what;
+  std::size_t count = 0;
+  std::vector<std::size_t> examples;
+};
+
+/// "12 cells inside out, among them 5, 17, 23"
+std::string describe(const Finding& finding);
+
+/// Adds a cell to a finding, keeping the smallest few numbers as examples.
+void add_example(Finding& finding, std::size_t cell);
+
+/// A face of the boundary: a cell and the number of its face.
+struct BoundaryFace {
+  std::uint32_t cell;
+  std::uint32_t face;
+};
+
+}  // namespace plume

@@ -1,0 +1,91 @@
+#include "plume/mesh/walkable_grid.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/parallel_reduce.h>
+
+#include "plume/mesh/explicit_cells.h"
+#include "plume/mesh/face_matching.h"
+
+namespace plume {
+namespace {
+
+// Sign of the sum of all cells' volumes.
+bool is_left_handed(const Mesh& mesh) {
+  const CellReader cells(mesh);
+  const double volume = tbb::parallel_deterministic_reduce(
+      tbb::blocked_range<std::size_t>(0, cells.size(), 4096), 0.0,
+      [&](const auto& range, double sum) {
+        std::vector<std::uint32_t> sizes, ids;
+        for (std::size_t i = range.begin(); i != range.end(); ++i) {
+          if (cells.hidden(i)) continue;
+          cells.faces(i, sizes, ids);
+          sum += signed_volume(mesh, sizes, ids);
+        }
+        return sum;
+      },
+      std::plus<double>());
+  return volume < 0;
+}
+
+}  // namespace
+
+std::size_t WalkableGrid::bytes() const {
+  return points.size() * sizeof(WalkablePoint) + cell_values.size() * sizeof(float) +
+         hidden.size() / 8 + boundary.size() * sizeof(BoundaryFace);
+}
+
+std::uint32_t WalkableGrid::neighbor(std::uint32_t cell, std::uint32_t face) const {
+  const auto index = cell_index(cell);
+  const std::size_t axis = face / 2;
+  std::uint32_t step = 1;
+  for (std::size_t a = 0; a < axis; ++a) step *= dimensions[a] - 1;
+  std::uint32_t other;
+  if (face % 2 == 0) {
+    if (index[axis] == 0) return kNone;
+    other = cell - step;
+  } else {
+    if (index[axis] + 2 == dimensions[axis]) return kNone;
+    other = cell + step;
+  }
+  return !hidden.empty() && hidden[other] ? kNone : other;
+}
+
+WalkableGrid make_walkable_grid(const Mesh& mesh, const ScalarField& scalar,
+                                const Bounds& bounds) {
+  WalkableGrid grid;
+  grid.frame = LocalFrame::of(bounds);
+  for (std::size_t a = 0; a < 3; ++a)
+    grid.dimensions[a] = static_cast<std::uint32_t>(mesh.dimensions[a]);
+  grid.left_handed = is_left_handed(mesh);
+  const bool on_points = scalar.association == Association::point;
+  grid.points.resize(mesh.point_count());
+  mesh.points.visit([&](auto xyz) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.points.size()), [&](const auto& range) {
+      for (std::size_t p = range.begin(); p != range.end(); ++p)
+        grid.points[p] = grid.frame.local(
+            static_cast<double>(xyz[3 * p]), static_cast<double>(xyz[3 * p + 1]),
+            static_cast<double>(xyz[3 * p + 2]), on_points ? scalar.values[p] : 0.0f);
+    });
+  });
+  if (!on_points) grid.cell_values = scalar.values;
+
+  Finding hidden{"hidden cells", 0, {}};
+  const auto cells = static_cast<std::uint32_t>(grid.cell_count());
+  if (!mesh.hidden_cells.empty()) {
+    grid.hidden.resize(cells);
+    for (std::uint32_t c = 0; c < cells; ++c) {
+      grid.hidden[c] = mesh.hidden_cells.at<int>(c) != 0;
+      if (grid.hidden[c]) add_example(hidden, c);
+    }
+    if (hidden.count > 0) grid.findings.push_back(std::move(hidden));
+  }
+  for (std::uint32_t c = 0; c < cells; ++c) {
+    if (!grid.hidden.empty() && grid.hidden[c]) continue;
+    for (std::uint32_t f = 0; f < 6; ++f)
+      if (grid.neighbor(c, f) == kNone) grid.boundary.push_back({c, f});
+  }
+  return grid;
+}
+
+}  // namespace plume

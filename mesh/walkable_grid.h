@@ -1,0 +1,53 @@
+/// A curvilinear grid as a walker reads it: no connectivity at all.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "plume/mesh/findings.h"
+#include "plume/mesh/local_frame.h"
+#include "plume/mesh/mesh.h"
+#include "plume/mesh/scalar_field.h"
+
+namespace plume {
+
+/// 16 bytes a point and nothing a cell (one bit where cells are hidden). Cell (i, j, k) is
+/// i + ci * (j + cj * k) with ci = dimensions[0] - 1 and so on, as in the user's mesh.
+struct WalkableGrid {
+  LocalFrame frame;
+  std::array<std::uint32_t, 3> dimensions{0, 0, 0};  ///< points along i, j, k
+  std::vector<WalkablePoint> points;
+  /// One value a cell where the field is cell-centred, else empty.
+  std::vector<float> cell_values;
+  /// One bit a cell where some are hidden, else empty.
+  std::vector<bool> hidden;
+  /// The whole grid's handedness: i, j, k form a left-handed system.
+  bool left_handed = false;
+  /// Every face without a visible cell behind it. Faces are numbered -i, +i, -j, +j, -k, +k.
+  std::vector<BoundaryFace> boundary;
+  std::vector<Finding> findings;
+
+  std::size_t cell_count() const {
+    return static_cast<std::size_t>(dimensions[0] - 1) * (dimensions[1] - 1) * (dimensions[2] - 1);
+  }
+  std::uint32_t original_cell(std::uint32_t cell) const { return cell; }
+  std::size_t bytes() const;
+
+  std::array<std::uint32_t, 3> cell_index(std::uint32_t cell) const {
+    const std::uint32_t ci = dimensions[0] - 1, cj = dimensions[1] - 1;
+    return {cell % ci, cell / ci % cj, cell / ci / cj};
+  }
+  /// First point of a cell; corner (a, b, c) of 0 and 1 is a + b * ni + c * ni * nj further on.
+  std::uint32_t first_point(std::uint32_t cell) const {
+    const auto [i, j, k] = cell_index(cell);
+    return i + dimensions[0] * (j + dimensions[1] * k);
+  }
+  /// The visible cell behind a face, or kNone.
+  std::uint32_t neighbor(std::uint32_t cell, std::uint32_t face) const;
+};
+
+/// Builds the walkable form. Requires a grid that passed check_structure().
+WalkableGrid make_walkable_grid(const Mesh& mesh, const ScalarField& scalar, const Bounds& bounds);
+
+}  // namespace plume

@@ -1,0 +1,50 @@
+/// Tetrahedra as a walker reads them.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "plume/mesh/face_matching.h"
+#include "plume/mesh/findings.h"
+#include "plume/mesh/local_frame.h"
+#include "plume/mesh/mesh.h"
+#include "plume/mesh/scalar_field.h"
+
+namespace plume {
+
+/// Immutable, compact, ordered along a Hilbert curve; safe to read from any number of threads. 32
+/// bytes a cell, 16 a point.
+struct WalkableTets {
+  struct Cell {
+    std::array<std::uint32_t, 4> points;
+    /// neighbors[i] shares the face opposite to points[i]; kNone at the boundary.
+    std::array<std::uint32_t, 4> neighbors;
+  };
+
+  LocalFrame frame;
+  std::vector<WalkablePoint> points;
+  std::vector<Cell> cells;
+  /// One value a cell where the field is cell-centred, else empty (values are in the points).
+  std::vector<float> cell_values;
+  /// Number of each cell in the user's mesh; empty unless asked for.
+  std::vector<std::uint32_t> original_cells;
+  /// Every face without a neighbour. The face's number is that of the point opposite to it.
+  std::vector<BoundaryFace> boundary;
+  std::vector<Finding> findings;
+
+  std::size_t cell_count() const { return cells.size(); }
+  std::uint32_t original_cell(std::uint32_t cell) const {
+    return original_cells.empty() ? cell : original_cells[cell];
+  }
+  std::size_t bytes() const;
+};
+
+/// Builds the walkable form: orders cells and points, finds neighbours, gives all cells that hang
+/// together one orientation. Cells with repeated points have no inside; they are left out and their
+/// neighbours joined. A face of three and more cells joins the first two and is boundary to the
+/// rest. All of that is in `findings`. Requires a mesh of tetrahedra that passed check_structure().
+WalkableTets make_walkable_tets(const Mesh& mesh, const ScalarField& scalar, const Bounds& bounds,
+                                bool keep_original_cells);
+
+}  // namespace plume

@@ -1,0 +1,185 @@
+#include "plume/traverse/boundary.h"
+
+#include <embree3/rtcore.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "plume/mesh/error.h"
+
+namespace plume {
+namespace {
+
+// Half-width, in local coordinates (the mesh fills [-1, 1]^3), by which boxes are widened. Rounding
+// of the sheared vertices (|x| <= 3, three operations), of the edge products that are compared, and
+// of Embree's ray (which starts at |x| <= 6) moves a face against the ray by less than 3e-6; this
+// is 2^-17. Wider boxes cost time, never a decision.
+constexpr float kMargin = 7.62939453125e-06f;
+
+void face_points(const WalkableTets& mesh, BoundaryFace face, std::vector<std::uint32_t>& ids) {
+  for (const int i : kTetrahedronFaces[face.face])
+    ids.push_back(mesh.cells[face.cell].points[static_cast<std::size_t>(i)]);
+}
+
+void face_points(const WalkableGrid& mesh, BoundaryFace face, std::vector<std::uint32_t>& ids) {
+  const std::uint32_t step[3] = {1, mesh.dimensions[0], mesh.dimensions[0] * mesh.dimensions[1]};
+  const std::uint32_t axis = face.face / 2;
+  const std::uint32_t base = mesh.first_point(face.cell) + (face.face % 2) * step[axis];
+  const std::uint32_t a = step[(axis + 1) % 3], b = step[(axis + 2) % 3];
+  for (const std::uint32_t id : {base, base + a, base + b, base + a + b}) ids.push_back(id);
+}
+
+void face_points(const WalkableCells& mesh, BoundaryFace face, std::vector<std::uint32_t>& ids) {
+  const auto loop = mesh.loop(face.face);
+  ids.assign(loop.begin(), loop.end());
+}
+
+template <class Mesh>
+void face_bounds(const RTCBoundsFunctionArguments* args) {
+  const Mesh& mesh = *static_cast<const Mesh*>(args->geometryUserPtr);
+  thread_local std::vector<std::uint32_t> ids;
+  ids.clear();
+  face_points(mesh, mesh.boundary[args->primID], ids);
+  std::array<float, 3> low, high;
+  low.fill(std::numeric_limits<float>::infinity());
+  high.fill(-std::numeric_limits<float>::infinity());
+  for (const std::uint32_t id : ids)
+    for (std::size_t a = 0; a < 3; ++a) {
+      low[a] = std::min(low[a], mesh.points[id].position[a]);
+      high[a] = std::max(high[a], mesh.points[id].position[a]);
+    }
+  RTCBounds& box = *args->bounds_o;
+  box.lower_x = low[0] - kMargin;
+  box.lower_y = low[1] - kMargin;
+  box.lower_z = low[2] - kMargin;
+  box.upper_x = high[0] + kMargin;
+  box.upper_y = high[1] + kMargin;
+  box.upper_z = high[2] + kMargin;
+}
+
+// What a query carries through Embree.
+template <class Walker>
+struct Query {
+  RTCIntersectContext context;  // first: Embree hands it back, and so the whole
+  const Walker* walker;
+  const ShearedFrame* frame;
+  const Entry* previous;
+  std::optional<Entry> best;
+};
+
+bool before(const Entry& a, const Entry& b, int sign) {
+  if (a.place.z != b.place.z) return sign > 0 ? a.place.z < b.place.z : a.place.z > b.place.z;
+  return a.boundary < b.boundary;
+}
+
+template <class Walker>
+void face_intersect(const RTCIntersectFunctionNArguments* args) {
+  if (args->valid[0] == 0) return;
+  auto& query = *reinterpret_cast<Query<Walker>*>(args->context);
+  const auto& mesh = *static_cast<const typename Walker::Mesh*>(args->geometryUserPtr);
+  const BoundaryFace face = mesh.boundary[args->primID];
+  const int winding = query.walker->boundary_winding(face);
+  const int ways_in = -winding * query.frame->sign();
+  if (ways_in <= 0) return;
+  const Entry entry{query.walker->measure_boundary(face, winding), args->primID, 0,
+                    static_cast<std::uint32_t>(ways_in)};
+  if (query.previous && !before(*query.previous, entry, query.frame->sign())) return;
+  if (query.best && !before(entry, *query.best, query.frame->sign())) return;
+  query.best = entry;
+  RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
+  RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, args->N);
+  // Another face may lie at the same place: the margin keeps its box in sight.
+  RTCRayN_tfar(ray, args->N, 0) = query.frame->parameter(entry.place.z) + kMargin;
+  RTCHitN_geomID(hit, args->N, 0) = args->geomID;
+  RTCHitN_primID(hit, args->N, 0) = args->primID;
+}
+
+struct DeviceDeleter {
+  void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+};
+struct SceneDeleter {
+  void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+};
+
+}  // namespace
+
+template <class Walker>
+struct BoundaryIndex<Walker>::Implementation {
+  std::unique_ptr<RTCDeviceTy, DeviceDeleter> device;
+  std::unique_ptr<RTCSceneTy, SceneDeleter> scene;
+};
+
+template <class Walker>
+BoundaryIndex<Walker>::BoundaryIndex(const Mesh& mesh)
+    : implementation_(std::make_unique<Implementation>()) {
+  implementation_->device.reset(rtcNewDevice(nullptr));
+  RTCDevice device = implementation_->device.get();
+  if (device == nullptr)
+    throw Error("Embree cannot start on this processor (error " +
+                std::to_string(static_cast<int>(rtcGetDeviceError(nullptr))) + ")");
+  implementation_->scene.reset(rtcNewScene(device));
+  RTCScene scene = implementation_->scene.get();
+  rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(mesh.boundary.size()));
+  rtcSetGeometryUserData(geometry, const_cast<Mesh*>(&mesh));
+  rtcSetGeometryBoundsFunction(geometry, face_bounds<Mesh>, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, face_intersect<Walker>);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(scene);
+  const RTCError error = rtcGetDeviceError(device);
+  if (error != RTC_ERROR_NONE)
+    throw Error("Embree could not index the " + std::to_string(mesh.boundary.size()) +
+                " boundary faces (error " + std::to_string(static_cast<int>(error)) +
+                (error == RTC_ERROR_OUT_OF_MEMORY ? ", out of memory)" : ")"));
+}
+
+template <class Walker>
+BoundaryIndex<Walker>::~BoundaryIndex() = default;
+template <class Walker>
+BoundaryIndex<Walker>::BoundaryIndex(BoundaryIndex&&) noexcept = default;
+template <class Walker>
+BoundaryIndex<Walker>& BoundaryIndex<Walker>::operator=(BoundaryIndex&&) noexcept = default;
+
+template <class Walker>
+std::optional<Entry> BoundaryIndex<Walker>::next_entry(const Walker& walker,
+                                                       const ShearedFrame& frame,
+                                                       const Entry* previous) const {
+  if (previous && previous->rank + 1 < previous->ranks) {
+    Entry again = *previous;
+    ++again.rank;
+    return again;
+  }
+  Query<Walker> query{};
+  rtcInitIntersectContext(&query.context);
+  query.walker = &walker;
+  query.frame = &frame;
+  query.previous = previous;
+  RTCRayHit rayhit{};
+  const auto start = frame.start();
+  const auto step = frame.step();
+  rayhit.ray.org_x = start[0];
+  rayhit.ray.org_y = start[1];
+  rayhit.ray.org_z = start[2];
+  rayhit.ray.dir_x = step[0];
+  rayhit.ray.dir_y = step[1];
+  rayhit.ray.dir_z = step[2];
+  rayhit.ray.tnear =
+      previous ? std::max(0.0f, frame.parameter(previous->place.z) - 2 * kMargin) : 0.0f;
+  rayhit.ray.tfar = std::numeric_limits<float>::infinity();
+  rayhit.ray.mask = 0xFFFFFFFFu;
+  rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  rtcIntersect1(implementation_->scene.get(), &query.context, &rayhit);
+  return query.best;
+}
+
+template class BoundaryIndex<TetWalker>;
+template class BoundaryIndex<GridWalker>;
+template class BoundaryIndex<CellWalker>;
+
+}  // namespace plume

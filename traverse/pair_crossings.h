@@ -1,0 +1,40 @@
+/// Which way out belongs to which way in, for a cell that the ray crosses more than once.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include "plume/traverse/measure.h"
+
+namespace plume {
+
+/// One crossing of a cell's face. A face of winding 2 is crossed twice; `rank` tells the two apart.
+struct CellCrossing {
+  Crossing place;
+  std::uint32_t face;
+  std::uint32_t rank;
+  bool out;
+};
+
+/// Pairs ways in with ways out in the order along the ray and returns the one that belongs to the
+/// entry (face, rank). The i-th way in goes with the i-th way out, so the pairing is one-to-one
+/// whatever the measurements say, and depends on nothing but the cell and the ray. Nothing where the
+/// entry is none of the cell's. `crossings` (size many) is sorted in place; `sign` is the ray's.
+inline std::optional<CellCrossing> exit_for(CellCrossing* crossings, std::size_t size,
+                                            std::uint32_t face, std::uint32_t rank, int sign) {
+  std::sort(crossings, crossings + size, [sign](const CellCrossing& a, const CellCrossing& b) {
+    if (a.out != b.out) return b.out;
+    if (a.place.z != b.place.z) return sign > 0 ? a.place.z < b.place.z : a.place.z > b.place.z;
+    if (a.face != b.face) return a.face < b.face;
+    return a.rank < b.rank;
+  });
+  const std::size_t ways_in = size / 2;
+  for (std::size_t i = 0; i < ways_in; ++i)
+    if (!crossings[i].out && crossings[i].face == face && crossings[i].rank == rank)
+      return crossings[ways_in + i];
+  return std::nullopt;
+}
+
+}  // namespace plume

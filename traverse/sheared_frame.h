@@ -1,0 +1,119 @@
+/// "Edges decide": the frame in which a ray is the z axis, and the bits that follow from it.
+///
+/// Axes are permuted so that the direction's largest component is z, and space is sheared so that
+/// the ray runs along z through x = y = 0. Each vertex is transformed once, always by the same
+/// operations in the same order, so that all cells around it see the same numbers. A vertex has one
+/// bit, an edge one bit, a face the winding number that follows from its edges. Every edge of a
+/// closed cell is walked twice, in opposite directions; so the windings of a cell's faces sum to
+/// zero, whatever the rounding, and a ray that comes in goes out.
+///
+/// The bits also have a meaning in exact arithmetic: they are those of a ray moved by an
+/// infinitesimal amount in -y and a smaller one in +x, which meets no vertex and no edge.
+#pragma once
+
+#include <array>
+#include <cmath>
+
+#include "plume/mesh/local_frame.h"
+#include "plume/traverse/ray.h"
+
+namespace plume {
+
+/// A vertex in the sheared frame. z and scalar are as in the mesh.
+struct ShearedPoint {
+  float x, y, z, scalar;
+  bool up() const { return y >= 0; }
+};
+
+/// 1 if the edge crosses y = 0 on the positive side of x, for vertices with !low.up() and
+/// high.up(). Comparing the products, rather than subtracting them, leaves no room for a fused
+/// multiply-add that would be rounded differently elsewhere.
+inline int right_of_ray(const ShearedPoint& low, const ShearedPoint& high) {
+  return low.x * high.y > high.x * low.y ? 1 : 0;
+}
+
+/// What the directed edge a -> b adds to the winding number about the ray: -1, 0 or 1.
+inline int crossing(const ShearedPoint& a, const ShearedPoint& b) {
+  if (a.up() == b.up()) return 0;
+  return b.up() ? right_of_ray(a, b) : -right_of_ray(b, a);
+}
+
+class ShearedFrame {
+ public:
+  /// False where the direction is zero or not finite: such a ray meets nothing.
+  bool set(const Ray& ray, const LocalFrame& local) {
+    const auto& d = ray.direction;
+    int major = 0;
+    for (int a = 1; a < 3; ++a)
+      if (std::abs(d[index(a)]) > std::abs(d[index(major)])) major = a;
+    if (!(std::abs(d[index(major)]) > 0)) return false;
+    // A cyclic permutation keeps the handedness.
+    x_ = index((major + 1) % 3);
+    y_ = index((major + 2) % 3);
+    z_ = index(major);
+    for (const double v : {d[0], d[1], d[2], ray.origin[0], ray.origin[1], ray.origin[2]})
+      if (!std::isfinite(v)) return false;
+    sign_ = d[z_] > 0 ? 1 : -1;
+    slope_x_ = static_cast<float>(d[x_] / d[z_]);
+    slope_y_ = static_cast<float>(d[y_] / d[z_]);
+
+    // The ray's point nearest to the centre of the mesh stands for its origin, so that a camera
+    // far away costs no precision.
+    const double length2 = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
+    double along = 0;
+    for (std::size_t a = 0; a < 3; ++a) along += (local.center[a] - ray.origin[a]) * d[a];
+    along /= length2;
+    std::array<double, 3> anchor;
+    for (std::size_t a = 0; a < 3; ++a)
+      anchor[a] = ((ray.origin[a] - local.center[a]) + along * d[a]) * local.scale;
+    offset_x_ = static_cast<float>(anchor[x_] - static_cast<double>(slope_x_) * anchor[z_]);
+    offset_y_ = static_cast<float>(anchor[y_] - static_cast<double>(slope_y_) * anchor[z_]);
+    t_per_z_ = 1 / (local.scale * d[z_]);
+    t_offset_ = along - anchor[z_] * t_per_z_;
+    return true;
+  }
+
+  ShearedPoint operator()(const WalkablePoint& p) const {
+    const float z = p.position[z_];
+    return {(p.position[x_] - offset_x_) - slope_x_ * z, (p.position[y_] - offset_y_) - slope_y_ * z,
+            z, p.scalar};
+  }
+
+  /// Distance along the ray, in world units, of a place at this z.
+  double t(double z) const { return z * t_per_z_ + t_offset_; }
+
+  /// 1 where z grows along the ray, -1 where it falls: a face of winding w about the ray, seen from
+  /// outside, is left through where w * sign() > 0 and entered where w * sign() < 0.
+  int sign() const { return sign_; }
+
+  /// The ray's line for a ray tracer, in local coordinates: a point outside of the mesh, from
+  /// which the direction (of length one along z) leads through all of it.
+  static constexpr float kStart = 4;
+  std::array<float, 3> start() const {
+    const float z = -kStart * static_cast<float>(sign_);
+    return place(offset_x_ + slope_x_ * z, offset_y_ + slope_y_ * z, z);
+  }
+  std::array<float, 3> step() const {
+    const float s = static_cast<float>(sign_);
+    return place(slope_x_ * s, slope_y_ * s, s);
+  }
+  /// That ray's parameter at this z.
+  float parameter(double z) const { return static_cast<float>(z * sign_) + kStart; }
+
+ private:
+  static std::size_t index(int axis) { return static_cast<std::size_t>(axis); }
+  std::array<float, 3> place(float x, float y, float z) const {
+    std::array<float, 3> p;
+    p[x_] = x;
+    p[y_] = y;
+    p[z_] = z;
+    return p;
+  }
+
+  std::size_t x_ = 0, y_ = 1, z_ = 2;
+  int sign_ = 1;
+  float slope_x_ = 0, slope_y_ = 0, offset_x_ = 0, offset_y_ = 0;
+  double t_per_z_ = 1, t_offset_ = 0;
+};
+
+}  // namespace plume

@@ -1,0 +1,79 @@
+/// A ray through a whole mesh: entries, walks, and the segments that a visitor gets.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+
+#include "plume/traverse/boundary.h"
+#include "plume/traverse/segment.h"
+
+namespace plume {
+
+/// Follows a ray through a mesh and calls `visit(const Segment&)` for each cell, front to back,
+/// until that returns false or the mesh ends.
+///
+/// Within one passage from boundary to boundary the segments join without gap: t_in is the t_out
+/// before it, bit for bit, and so are the scalars. In a mesh whose cells overlap, where the ray would
+/// have to go back, the segment has length zero instead. A mesh that is not convex is left and
+/// entered again. Where the ray starts inside (or t_max ends inside), the first (last) segment is
+/// cut there, its scalar interpolated linearly. Passages come in the order of their entries.
+template <class Walker, class Visit>
+TraceResult trace(const typename Walker::Mesh& mesh, const BoundaryIndex<Walker>& boundary,
+                  const Ray& ray, Visit&& visit) {
+  TraceResult result;
+  ShearedFrame frame;
+  if (!frame.set(ray, mesh.frame)) return result;
+  Walker walker(mesh, frame);
+  // The map from a way into a cell to the way into the next is one-to-one, so a walk cannot come
+  // back to where it was. Each cell of n faces has at most n ways in; this guards against a mesh
+  // that was changed under our feet.
+  const std::uint64_t longest = 64 * static_cast<std::uint64_t>(mesh.cell_count()) + 64;
+
+  std::optional<Entry> entry = boundary.next_entry(walker, frame, nullptr);
+  for (; entry; entry = boundary.next_entry(walker, frame, &*entry)) {
+    double t_in = frame.t(entry->place.z);
+    if (t_in > ray.t_max) break;
+    ++result.entries;
+    float s_in = entry->place.scalar;
+    walker.enter(mesh.boundary[entry->boundary], entry->rank);
+    std::uint64_t steps = 0;
+    do {
+      const std::uint32_t cell = walker.cell();
+      const std::optional<Crossing> exit = walker.leave();
+      if (!exit || ++steps > longest) {
+        result.end = WalkEnd::lost;
+        return result;
+      }
+      Segment segment{t_in, std::max(t_in, frame.t(exit->z)), s_in, exit->scalar, cell};
+      t_in = segment.t_out;
+      s_in = segment.s_out;
+      if (!mesh.cell_values.empty())
+        segment.s_in = segment.s_out = mesh.cell_values[cell];
+      if (segment.t_out < ray.t_min) continue;
+      ++result.cells;
+      if (segment.t_in < ray.t_min || segment.t_out > ray.t_max) {
+        const Segment whole = segment;
+        auto scalar_at = [&whole](double t) {
+          const double share = (t - whole.t_in) / (whole.t_out - whole.t_in);
+          return static_cast<float>(whole.s_in + share * (whole.s_out - whole.s_in));
+        };
+        if (whole.t_in < ray.t_min) {
+          segment.t_in = ray.t_min;
+          segment.s_in = scalar_at(ray.t_min);
+        }
+        if (whole.t_out > ray.t_max) {
+          segment.t_out = ray.t_max;
+          segment.s_out = scalar_at(ray.t_max);
+        }
+      }
+      if (!visit(static_cast<const Segment&>(segment))) {
+        result.end = WalkEnd::stopped;
+        return result;
+      }
+      if (t_in > ray.t_max) break;
+    } while (walker.advance());
+  }
+  return result;
+}
+
+}  // namespace plume
