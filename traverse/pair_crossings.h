@@ -1,10 +1,11 @@
 /// Which way out belongs to which way in, for a cell that the ray crosses more than once.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <tuple>
+#include <utility>
 
 #include "plume/traverse/measure.h"
 
@@ -24,12 +25,17 @@ struct CellCrossing {
 /// entry is none of the cell's. `crossings` (size many) is sorted in place; `sign` is the ray's.
 inline std::optional<CellCrossing> exit_for(CellCrossing* crossings, std::size_t size,
                                             std::uint32_t face, std::uint32_t rank, int sign) {
-  std::sort(crossings, crossings + size, [sign](const CellCrossing& a, const CellCrossing& b) {
+  auto before = [sign](const CellCrossing& a, const CellCrossing& b) {
     if (a.out != b.out) return b.out;
-    if (a.place.z != b.place.z) return sign > 0 ? a.place.z < b.place.z : a.place.z > b.place.z;
-    if (a.face != b.face) return a.face < b.face;
-    return a.rank < b.rank;
-  });
+    // Ties are turned around with the ray too, so that it takes the same way back.
+    const CellCrossing& near = sign > 0 ? a : b;
+    const CellCrossing& far = sign > 0 ? b : a;
+    return std::tie(near.place.z, near.face, near.rank) < std::tie(far.place.z, far.face, far.rank);
+  };
+  // Hardly ever more than four: by insertion.
+  for (std::size_t i = 1; i < size; ++i)
+    for (std::size_t j = i; j > 0 && before(crossings[j], crossings[j - 1]); --j)
+      std::swap(crossings[j], crossings[j - 1]);
   const std::size_t ways_in = size / 2;
   for (std::size_t i = 0; i < ways_in; ++i)
     if (!crossings[i].out && crossings[i].face == face && crossings[i].rank == rank)

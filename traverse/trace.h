@@ -9,14 +9,33 @@
 
 namespace plume {
 
+/// Shortens a segment to [from, to]; the scalar is linear along it. Requires that they overlap.
+inline void cut(Segment& segment, double from, double to) {
+  const Segment whole = segment;
+  auto scalar_at = [&whole](double t) {
+    const double share = (t - whole.t_in) / (whole.t_out - whole.t_in);
+    return static_cast<float>(whole.s_in + share * (whole.s_out - whole.s_in));
+  };
+  if (whole.t_in < from) {
+    segment.t_in = from;
+    segment.s_in = scalar_at(from);
+  }
+  if (whole.t_out > to) {
+    segment.t_out = to;
+    segment.s_out = scalar_at(to);
+  }
+}
+
 /// Follows a ray through a mesh and calls `visit(const Segment&)` for each cell, front to back,
 /// until that returns false or the mesh ends.
 ///
 /// Within one passage from boundary to boundary the segments join without gap: t_in is the t_out
 /// before it, bit for bit, and so are the scalars. In a mesh whose cells overlap, where the ray would
 /// have to go back, the segment has length zero instead. A mesh that is not convex is left and
-/// entered again. Where the ray starts inside (or t_max ends inside), the first (last) segment is
-/// cut there, its scalar interpolated linearly. Passages come in the order of their entries.
+/// entered again; passages come in the order of their entries. What one passage has covered the next
+/// does not cover again (parts that overlap, or blocks that touch along the ray): no length is
+/// counted twice. Where a segment is cut (there, at t_min, at t_max) its scalar is interpolated
+/// linearly.
 template <class Walker, class Visit>
 TraceResult trace(const typename Walker::Mesh& mesh, const BoundaryIndex<Walker>& boundary,
                   const Ray& ray, Visit&& visit) {
@@ -29,6 +48,7 @@ TraceResult trace(const typename Walker::Mesh& mesh, const BoundaryIndex<Walker>
   // that was changed under our feet.
   const std::uint64_t longest = 64 * static_cast<std::uint64_t>(mesh.cell_count()) + 64;
 
+  double seen_until = ray.t_min;
   std::optional<Entry> entry = boundary.next_entry(walker, frame, nullptr);
   for (; entry; entry = boundary.next_entry(walker, frame, &*entry)) {
     double t_in = frame.t(entry->place.z);
@@ -47,31 +67,16 @@ TraceResult trace(const typename Walker::Mesh& mesh, const BoundaryIndex<Walker>
       Segment segment{t_in, std::max(t_in, frame.t(exit->z)), s_in, exit->scalar, cell};
       t_in = segment.t_out;
       s_in = segment.s_out;
-      if (!mesh.cell_values.empty())
-        segment.s_in = segment.s_out = mesh.cell_values[cell];
-      if (segment.t_out < ray.t_min) continue;
+      if (!mesh.cell_values.empty()) segment.s_in = segment.s_out = mesh.cell_values[cell];
+      if (segment.t_out < seen_until) continue;
       ++result.cells;
-      if (segment.t_in < ray.t_min || segment.t_out > ray.t_max) {
-        const Segment whole = segment;
-        auto scalar_at = [&whole](double t) {
-          const double share = (t - whole.t_in) / (whole.t_out - whole.t_in);
-          return static_cast<float>(whole.s_in + share * (whole.s_out - whole.s_in));
-        };
-        if (whole.t_in < ray.t_min) {
-          segment.t_in = ray.t_min;
-          segment.s_in = scalar_at(ray.t_min);
-        }
-        if (whole.t_out > ray.t_max) {
-          segment.t_out = ray.t_max;
-          segment.s_out = scalar_at(ray.t_max);
-        }
-      }
+      cut(segment, seen_until, ray.t_max);
       if (!visit(static_cast<const Segment&>(segment))) {
         result.end = WalkEnd::stopped;
         return result;
       }
-      if (t_in > ray.t_max) break;
-    } while (walker.advance());
+    } while (t_in <= ray.t_max && walker.advance());
+    seen_until = std::max(seen_until, t_in);
   }
   return result;
 }

@@ -1,0 +1,35 @@
+/// How the command talks: messages and a progress bar on standard error, results in files.
+#pragma once
+
+#include <functional>
+#include <string>
+
+namespace plume::command {
+
+/// Messages for people; silent where `quiet`.
+class Console {
+ public:
+  explicit Console(bool quiet) : quiet_(quiet) {}
+
+  void say(const std::string& line) const;
+
+  /// A progress bar for render(), none where standard error is no terminal or `quiet`.
+  std::function<bool(double)> progress_bar() const;
+
+ private:
+  bool quiet_;
+};
+
+/// "12,345"
+std::string with_separators(std::size_t number);
+
+/// The most memory that this process has held, in bytes.
+std::size_t peak_memory_bytes();
+
+/// Writes a text file under its name only once it is whole. Throws Error.
+void write_text_file(const std::string& file, const std::string& text);
+
+/// Throws Error unless a file of that name could be written; leaves nothing behind.
+void check_writable(const std::string& file);
+
+}  // namespace plume::command

@@ -1,0 +1,302 @@
+// plume render: a mesh file becomes a picture.
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "commands.h"
+#include "console.h"
+#include "parse.h"
+#include "plume/io/color_map_file.h"
+#include "plume/io/image_file.h"
+#include "plume/io/read_mesh.h"
+#include "plume/lib/plume.h"
+
+namespace plume::command {
+namespace {
+
+struct RenderArguments {
+  std::string mesh, solution, output = "picture.png", field, association, size = "1024x768";
+  std::string view = "iso", camera, transfer_function, transfer_range, mode = "volume";
+  std::string integrator = "closed-form", background = "white", stats;
+  std::vector<std::string> channels;
+  double azimuth = 0, elevation = 0, zoom = 1, opacity_scale = 1, view_angle = 0;
+  double unit_distance = 0, early_termination = RenderSettings{}.early_termination;
+  int time_step = -1, samples = 1, threads = 0, bits = 8;
+  bool parallel = false, merge_points = false, quiet = false, verbose = false;
+};
+
+const std::vector<std::pair<std::string, Mode>> kModes{{"volume", Mode::volume},
+                                                       {"mip", Mode::maximum},
+                                                       {"integral", Mode::integral},
+                                                       {"depth", Mode::depth}};
+const std::vector<std::pair<std::string, IntegratorKind>> kIntegrators{
+    {"closed-form", IntegratorKind::closed_form},
+    {"table", IntegratorKind::table},
+    {"midpoint", IntegratorKind::midpoint}};
+
+template <class T>
+std::vector<std::string> names_of(const std::vector<std::pair<std::string, T>>& choices) {
+  std::vector<std::string> names;
+  for (const auto& choice : choices) names.push_back(choice.first);
+  return names;
+}
+
+template <class T>
+T chosen(const std::vector<std::pair<std::string, T>>& choices, const std::string& name) {
+  for (const auto& choice : choices)
+    if (choice.first == name) return choice.second;
+  return choices.front().second;  // CLI11 has checked the name
+}
+
+class Stopwatch {
+ public:
+  double lap() {
+    const auto now = Clock::now();
+    return std::chrono::duration<double, std::milli>(now - std::exchange(start_, now)).count();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  Clock::time_point start_ = Clock::now();
+};
+
+void choose_transfer_function(Scene& scene, const RenderArguments& args, const Console& console) {
+  ColorMap map = scene.default_color_map();
+  const std::vector<std::string> presets = preset_names();
+  if (!args.transfer_function.empty()) {
+    if (auto colors = preset(args.transfer_function)) {
+      // A preset brings colours; the opacity stays the one fitted to the values.
+      colors = rescaled(*colors, map.colors.front().x, map.colors.back().x);
+      colors->opacities = map.opacities;
+      map = *colors;
+    } else if (std::filesystem::exists(args.transfer_function)) {
+      map = read_color_map(args.transfer_function);
+    } else {
+      throw Error(fmt::format("--tf '{}': neither a file nor a preset; the presets are: {}",
+                              args.transfer_function, fmt::join(presets, " ")));
+    }
+  }
+  if (!args.transfer_range.empty()) {
+    const auto range = parse_numbers("--tf-range", args.transfer_range, {2});
+    if (!(range[0] < range[1]))
+      throw Error(fmt::format("--tf-range '{}': the first number must be below the second",
+                              args.transfer_range));
+    map = rescaled(std::move(map), range[0], range[1]);
+  }
+  const ScalarField& field = scene.field();
+  if (map.colors.back().x < field.low || map.colors.front().x > field.high)
+    console.say(fmt::format(
+        "the colour map covers {:g} to {:g}, but '{}' runs from {:g} to {:g}; see --tf-range",
+        map.colors.front().x, map.colors.back().x, field.name, field.low, field.high));
+  const double unit = args.unit_distance > 0 ? args.unit_distance : scene.default_unit_distance();
+  scene.set_transfer_function(to_transfer_function(map, unit, args.opacity_scale));
+}
+
+Camera choose_camera(const Scene& scene, const RenderArguments& args, double aspect_ratio) {
+  Camera camera = named_view(args.view, scene.bounds(), aspect_ratio);
+  if (!args.camera.empty()) {
+    const auto n = parse_numbers("--camera", args.camera, {6, 9});
+    camera.position = {n[0], n[1], n[2]};
+    camera.focal_point = {n[3], n[4], n[5]};
+    if (n.size() == 9) camera.view_up = {n[6], n[7], n[8]};
+  }
+  camera.parallel = args.parallel;
+  if (args.view_angle != 0) camera.view_angle = args.view_angle;
+  orbit(camera, args.azimuth, args.elevation);
+  zoom(camera, args.zoom);
+  return camera;
+}
+
+void choose_background(const std::string& text, ImageFileOptions& options) {
+  if (text == "transparent") return;
+  std::vector<double> rgb;
+  if (text == "white") rgb = {1, 1, 1};
+  else if (text == "black") rgb = {0, 0, 0};
+  else rgb = parse_numbers("--background", text, {3});
+  for (std::size_t c = 0; c < 3; ++c) {
+    if (rgb[c] < 0 || rgb[c] > 1)
+      throw Error(fmt::format("--background '{}': each number must be 0 to 1", text));
+    options.background[c] = static_cast<float>(rgb[c]);
+  }
+}
+
+nlohmann::json to_json(const std::vector<Finding>& findings) {
+  auto list = nlohmann::json::array();
+  for (const Finding& finding : findings) list.push_back(describe(finding));
+  return list;
+}
+
+void run(const RenderArguments& args) {
+  const Console console(args.quiet);
+  const PictureSize size = parse_size(args.size);
+  ImageFileOptions file_options;
+  file_options.png_bits = args.bits;
+  choose_background(args.background, file_options);
+  check_image_path(args.output);
+  if (!args.stats.empty()) check_writable(args.stats);
+
+  Stopwatch watch;
+  ReadOptions read_options;
+  read_options.solution = args.solution;
+  read_options.merge_points = args.merge_points;
+  if (args.time_step >= 0) read_options.time_step = args.time_step;
+  const Notice notice = [&](const std::string& line) { console.say(line); };
+  auto mesh = std::make_unique<Mesh>(read_mesh(args.mesh, read_options, notice));
+  const double ms_read = watch.lap();
+
+  SceneOptions scene_options;
+  scene_options.field.name = args.field;
+  if (args.association == "point") scene_options.field.association = Association::point;
+  if (args.association == "cell") scene_options.field.association = Association::cell;
+  scene_options.keep_cell_numbers =
+      std::find(args.channels.begin(), args.channels.end(), "cell_id") != args.channels.end();
+  auto scene = [&] {
+    try {
+      return Scene(*mesh, scene_options);
+    } catch (const Error& error) {
+      throw Error(args.mesh + ": " + error.what());
+    }
+  }();
+  mesh.reset();  // the scene needs it no more
+  choose_transfer_function(scene, args, console);
+  const double ms_build = watch.lap();
+  const ScalarField& field = scene.field();
+  console.say(fmt::format("{}: {} cells, coloured by '{}' ({} data, {:g} to {:g})", args.mesh,
+                          with_separators(scene.cell_count()), field.name,
+                          field.association == Association::point ? "point" : "cell", field.low,
+                          field.high));
+  for (const Finding& finding : scene.findings()) console.say(describe(finding));
+
+  RenderSettings settings;
+  settings.width = size.width;
+  settings.height = size.height;
+  settings.mode = chosen(kModes, args.mode);
+  settings.integrator.kind = chosen(kIntegrators, args.integrator);
+  settings.integrator.samples = args.samples;
+  settings.early_termination = args.early_termination;
+  settings.threads = args.threads;
+  settings.channels = args.channels;
+  const Camera camera =
+      choose_camera(scene, args, static_cast<double>(size.width) / size.height);
+  const RenderResult result = render(scene, camera, settings, console.progress_bar());
+  const double ms_render = watch.lap();
+  const RenderStatistics& statistics = result.statistics;
+  if (args.verbose)
+    for (const std::string& line : statistics.plan) console.say(line);
+
+  file_options.metadata = {
+      {"Software", "plume " PLUME_VERSION},
+      {"plume:mesh", std::filesystem::path(args.mesh).filename().string()},
+      {"plume:field", field.name},
+      {"plume:mode", args.mode},
+      {"plume:plan", fmt::format("{}", fmt::join(statistics.plan, "; "))},
+      {"plume:camera", fmt::format("position {} focal point {} view up {} view angle {} parallel "
+                                   "scale {}{}",
+                                   fmt::join(camera.position, ","),
+                                   fmt::join(camera.focal_point, ","),
+                                   fmt::join(camera.view_up, ","), camera.view_angle,
+                                   camera.parallel_scale, camera.parallel ? " (parallel)" : "")}};
+  write_image(result.image, args.output, file_options);
+  const double ms_write = watch.lap();
+
+  if (!args.stats.empty()) {
+    const double cells = static_cast<double>(scene.cell_count());
+    const nlohmann::json stats{
+        {"rays", statistics.rays},
+        {"rays_hit", statistics.rays_hit},
+        {"entries", statistics.entries},
+        {"cells_visited", statistics.cells_visited},
+        {"lost_rays", statistics.lost_rays},
+        {"ms",
+         {{"read", ms_read}, {"build", ms_build}, {"render", ms_render}, {"write", ms_write}}},
+        {"peak_memory_bytes", peak_memory_bytes()},
+        {"bytes_per_cell", static_cast<double>(scene.bytes()) / cells},
+        {"walkable_bytes", scene.bytes()},
+        {"cells", scene.cell_count()},
+        {"points", scene.point_count()},
+        {"boundary_faces", scene.boundary_face_count()},
+        {"field", field.name},
+        {"field_association", field.association == Association::point ? "point" : "cell"},
+        {"field_range", {field.low, field.high}},
+        {"values_not_finite", field.not_finite},
+        {"size", {size.width, size.height}},
+        {"plan", statistics.plan},
+        {"findings", to_json(scene.findings())}};
+    write_text_file(args.stats, stats.dump(2) + "\n");
+  }
+  console.say(fmt::format("{}: {} x {}, {} cells walked, {} rays lost, {:.0f} ms", args.output,
+                          size.width, size.height, with_separators(statistics.cells_visited),
+                          statistics.lost_rays, ms_render));
+}
+
+}  // namespace
+
+void add_render(CLI::App& app) {
+  auto args = std::make_shared<RenderArguments>();
+  CLI::App* command = app.add_subcommand("render", "Render a mesh file to a PNG or EXR picture");
+  command->add_option("mesh", args->mesh, "The mesh: .vtu .vtk .vts .cgns .case .foam .ex2 ...")
+      ->required();
+  command->add_option("--solution", args->solution, "Plot3D: the q file of the grid");
+  command->add_option("-o,--output", args->output, "The picture: .png or .exr (picture.png)");
+  command->add_option("--field", args->field,
+                      "What to show: NAME, NAME:component or NAME:magnitude (the active field)");
+  command->add_option("--association", args->association, "Where a name is on both: point or cell")
+      ->check(CLI::IsMember({"point", "cell"}));
+  command->add_option("--time-step", args->time_step, "Which step of several, from 0 (the last)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_flag("--merge-points", args->merge_points,
+                    "Merge coincident points of neighbouring blocks");
+  command->add_option("--size", args->size, "Pixels: WIDTHxHEIGHT (1024x768)");
+  CLI::Option* view = command->add_option(
+      "--view", args->view, "Look along +x -x +y -y +z -z, or iso; fitted to the mesh (iso)");
+  command
+      ->add_option("--camera", args->camera,
+                   "Position and focal point, and view up if wanted: PX,PY,PZ,FX,FY,FZ[,UX,UY,UZ]")
+      ->excludes(view);
+  command->add_option("--azimuth", args->azimuth, "Turn the camera around view up, degrees");
+  command->add_option("--elevation", args->elevation, "Turn the camera upwards, degrees");
+  command->add_option("--zoom", args->zoom, "Enlarge by this factor (1)");
+  command->add_option("--view-angle", args->view_angle, "Degrees, bottom to top (30)");
+  command->add_flag("--parallel", args->parallel, "Parallel projection");
+  command->add_option("--tf", args->transfer_function,
+                      "ParaView's JSON colour map, or a preset: cool-warm viridis inferno turbo "
+                      "gray rainbow (fitted to the field)");
+  command->add_option("--tf-range", args->transfer_range, "Stretch the colour map over LOW,HIGH");
+  command->add_option("--opacity-scale", args->opacity_scale, "Multiply the extinction by this (1)")
+      ->check(CLI::NonNegativeNumber);
+  command
+      ->add_option("--unit-distance", args->unit_distance,
+                   "World length over which opacity applies (a tenth of the mesh's diagonal)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("--mode", args->mode, "volume, mip, integral or depth (volume)")
+      ->check(CLI::IsMember(names_of(kModes)));
+  command->add_option("--integrator", args->integrator, "closed-form, table or midpoint")
+      ->check(CLI::IsMember(names_of(kIntegrators)));
+  command->add_option("--samples", args->samples, "Samples a segment, for midpoint (1)")
+      ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--early-termination", args->early_termination,
+                   "Transmittance at which a ray ends (1e-4)")
+      ->check(CLI::Range(0.0, 0.999));
+  command
+      ->add_option("--channels", args->channels,
+                   "More channels in an EXR: depth,optical_depth,cell_id,cell_count")
+      ->delimiter(',');
+  command->add_option("--bits", args->bits, "Bits a channel of a PNG: 8 or 16")
+      ->check(CLI::IsMember({8, 16}));
+  command->add_option("--background", args->background,
+                      "Of a PNG: white, black, transparent or R,G,B from 0 to 1 (white)");
+  command->add_option("--threads", args->threads, "Threads, 0 for all (0)")
+      ->check(CLI::NonNegativeNumber);
+  command->add_option("--stats", args->stats, "Write counts, times and the plan to this JSON file");
+  command->add_flag("--verbose", args->verbose, "Print the plan and the reasons for it");
+  command->add_flag("--quiet", args->quiet, "Print nothing but errors");
+  command->callback([args] { run(*args); });
+}
+
+}  // namespace plume::command

@@ -1,0 +1,141 @@
+#include "plume/lib/camera.h"
+
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "plume/mesh/error.h"
+
+namespace plume {
+namespace {
+
+using Vector = std::array<double, 3>;
+
+double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+Vector cross(const Vector& a, const Vector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+Vector sum(const Vector& a, double factor, const Vector& b) {
+  return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
+}
+double length(const Vector& a) { return std::hypot(a[0], a[1], a[2]); }
+// Zero stays zero.
+Vector normalized(const Vector& a) {
+  const double l = length(a);
+  return l > 0 ? Vector{a[0] / l, a[1] / l, a[2] / l} : a;
+}
+double radians(double degrees) { return degrees * std::numbers::pi / 180; }
+
+// Rodrigues' rotation of `v` around the unit axis.
+Vector rotated(const Vector& v, const Vector& axis, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const Vector across = cross(axis, v);
+  const double along = dot(axis, v) * (1 - c);
+  return {c * v[0] + s * across[0] + along * axis[0], c * v[1] + s * across[1] + along * axis[1],
+          c * v[2] + s * across[2] + along * axis[2]};
+}
+
+const std::vector<std::pair<std::string, Vector>>& views() {
+  static const std::vector<std::pair<std::string, Vector>> all{
+      {"+x", {1, 0, 0}},  {"-x", {-1, 0, 0}}, {"+y", {0, 1, 0}},    {"-y", {0, -1, 0}},
+      {"+z", {0, 0, 1}},  {"-z", {0, 0, -1}}, {"iso", {-1, -1, -1}}};
+  return all;
+}
+
+}  // namespace
+
+Camera fitted_camera(const Bounds& bounds, const Vector& direction, const Vector& view_up,
+                     double aspect_ratio) {
+  const Vector forward = normalized(direction);
+  if (!(length(forward) > 0) || !std::isfinite(length(forward)))
+    throw Error(fmt::format("a camera cannot look along ({}, {}, {})", direction[0], direction[1],
+                            direction[2]));
+  Camera camera;
+  camera.view_up = view_up;
+  if (length(view_up) == 0)
+    camera.view_up = std::abs(forward[2]) > 0.99 ? Vector{0, 1, 0} : Vector{0, 0, 1};
+  camera.focal_point = bounds.center();
+  const double radius = bounds.diagonal() > 0 ? 0.5 * bounds.diagonal() : 0.5;
+  const double half_angle = radians(0.5 * camera.view_angle);
+  const double narrow = std::fmin(1, aspect_ratio);
+  const double distance = radius / std::sin(std::atan(std::tan(half_angle) * narrow));
+  camera.position = sum(camera.focal_point, -distance, forward);
+  camera.parallel_scale = radius / narrow;
+  return camera;
+}
+
+std::vector<std::string> view_names() {
+  std::vector<std::string> names;
+  for (const auto& view : views()) names.push_back(view.first);
+  return names;
+}
+
+Camera named_view(const std::string& name, const Bounds& bounds, double aspect_ratio) {
+  for (const auto& [view, direction] : views())
+    if (view == name) return fitted_camera(bounds, direction, {0, 0, 0}, aspect_ratio);
+  throw Error(fmt::format("no view '{}'; there are: {}", name, fmt::join(view_names(), " ")));
+}
+
+void orbit(Camera& camera, double azimuth, double elevation) {
+  Vector arm = sum(camera.position, -1, camera.focal_point);
+  arm = rotated(arm, normalized(camera.view_up), radians(azimuth));
+  const Vector right = normalized(cross(camera.view_up, arm));
+  arm = rotated(arm, right, radians(-elevation));
+  camera.view_up = rotated(camera.view_up, right, radians(-elevation));
+  camera.position = sum(camera.focal_point, 1, arm);
+}
+
+void zoom(Camera& camera, double factor) {
+  if (!(factor > 0) || !std::isfinite(factor))
+    throw Error(fmt::format("a zoom of {}; it must be above 0", factor));
+  camera.view_angle /= factor;
+  camera.parallel_scale /= factor;
+}
+
+PixelRays::PixelRays(const Camera& camera, int width, int height)
+    : camera_(camera), pixels_x_(width), pixels_y_(height) {
+  for (const Vector& v : {camera.position, camera.focal_point, camera.view_up})
+    if (!std::isfinite(length(v)))
+      throw Error(fmt::format("camera: ({}, {}, {}) is not finite", v[0], v[1], v[2]));
+  forward_ = normalized(sum(camera.focal_point, -1, camera.position));
+  if (!(length(forward_) > 0))
+    throw Error(fmt::format("camera: the position ({}, {}, {}) is the focal point",
+                            camera.position[0], camera.position[1], camera.position[2]));
+  right_ = cross(forward_, normalized(camera.view_up));
+  if (!(length(right_) > 1e-9))
+    throw Error(fmt::format("camera: view up ({}, {}, {}) lies along the line of sight",
+                            camera.view_up[0], camera.view_up[1], camera.view_up[2]));
+  right_ = normalized(right_);
+  up_ = cross(right_, forward_);
+  if (camera.parallel) {
+    if (!(camera.parallel_scale > 0) || !std::isfinite(camera.parallel_scale))
+      throw Error(fmt::format("camera: a parallel scale of {}; it must be above 0",
+                              camera.parallel_scale));
+    half_height_ = camera.parallel_scale;
+  } else {
+    if (!(camera.view_angle > 0 && camera.view_angle < 180))
+      throw Error(fmt::format("camera: a view angle of {} degrees; it must be between 0 and 180",
+                              camera.view_angle));
+    half_height_ = std::tan(radians(0.5 * camera.view_angle));
+  }
+  half_width_ = half_height_ * pixels_x_ / pixels_y_;
+}
+
+Ray PixelRays::operator()(double x, double y) const {
+  const double across = (2 * x / pixels_x_ - 1) * half_width_;
+  const double upward = (1 - 2 * y / pixels_y_) * half_height_;
+  Ray ray;
+  if (camera_.parallel) {
+    ray.origin = sum(sum(camera_.position, across, right_), upward, up_);
+    ray.direction = forward_;
+  } else {
+    ray.origin = camera_.position;
+    ray.direction = normalized(sum(sum(forward_, across, right_), upward, up_));
+  }
+  return ray;
+}
+
+}  // namespace plume

@@ -1,0 +1,61 @@
+/// Where a picture is taken from, in the terms of VTK's users.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "plume/mesh/local_frame.h"
+#include "plume/traverse/ray.h"
+
+namespace plume {
+
+struct Camera {
+  std::array<double, 3> position{0, 0, 1};
+  std::array<double, 3> focal_point{0, 0, 0};
+  std::array<double, 3> view_up{0, 1, 0};
+  /// Degrees from the bottom to the top of the picture, in (0, 180). Perspective only.
+  double view_angle = 30;
+  /// Parallel projection: all rays have the direction of the line of sight.
+  bool parallel = false;
+  /// Half of the picture's height in world units, > 0. Parallel projection only.
+  double parallel_scale = 1;
+};
+
+/// A camera that looks along `direction` and sees all of `bounds` in a picture of that aspect ratio
+/// (width / height). `view_up` may be any direction but that of sight; zero lets us choose.
+/// Throws Error where the direction is zero.
+Camera fitted_camera(const Bounds& bounds, const std::array<double, 3>& direction,
+                     const std::array<double, 3>& view_up = {0, 0, 0}, double aspect_ratio = 1);
+
+/// A named view, fitted: "+x" looks along +x, as ParaView's button of that name; likewise -x, +y,
+/// -y, +z, -z; "iso" looks along (-1, -1, -1). Throws Error, listing the names, for another.
+Camera named_view(const std::string& name, const Bounds& bounds, double aspect_ratio = 1);
+std::vector<std::string> view_names();
+
+/// Turns the camera about the focal point, around view up (azimuth) and around the axis across the
+/// picture (elevation), in degrees, as vtkCamera does.
+void orbit(Camera& camera, double azimuth, double elevation);
+
+/// Makes what is seen larger (> 1) or smaller: narrows the view angle or the parallel scale, as
+/// vtkCamera's Zoom. Throws Error unless factor > 0.
+void zoom(Camera& camera, double factor);
+
+/// The rays of a picture's pixels.
+class PixelRays {
+ public:
+  /// Throws Error, naming the value, where the camera makes no picture: position at the focal
+  /// point, view up along the line of sight or zero, an angle or scale out of range.
+  PixelRays(const Camera& camera, int width, int height);
+
+  /// The ray through the place (x, y), in pixels from the top left corner; the centre of pixel
+  /// (0, 0) is (0.5, 0.5). Its direction has length one.
+  Ray operator()(double x, double y) const;
+
+ private:
+  Camera camera_;
+  std::array<double, 3> forward_, right_, up_;
+  double half_width_, half_height_, pixels_x_, pixels_y_;
+};
+
+}  // namespace plume

@@ -1,0 +1,10 @@
+/// All of the library's face in one include.
+#pragma once
+
+#include "plume/lib/camera.h"
+#include "plume/lib/color_map.h"
+#include "plume/lib/image.h"
+#include "plume/lib/render.h"
+#include "plume/lib/scene.h"
+#include "plume/mesh/error.h"
+#include "plume/mesh/mesh.h"

@@ -1,0 +1,309 @@
+#include "plume/lib/render.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <optional>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <tbb/blocked_range.h>
+#include <tbb/enumerable_thread_specific.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include "plume/lib/pixel.h"
+#include "plume/lib/scene_body.h"
+#include "plume/mesh/error.h"
+
+namespace plume {
+namespace {
+
+constexpr int kTile = 32;  // pixels along a tile's edge
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+const std::vector<std::string> kChannels{"depth", "optical_depth", "cell_id", "cell_count"};
+
+void check(const RenderSettings& settings) {
+  auto in_range = [](int pixels) { return pixels >= 1 && pixels <= 65536; };
+  if (!in_range(settings.width) || !in_range(settings.height))
+    throw Error(fmt::format("a picture of {}x{} pixels: each side must be 1 to 65536",
+                            settings.width, settings.height));
+  if (!(settings.early_termination >= 0 && settings.early_termination < 1))
+    throw Error(fmt::format("early termination at {}: it must be at least 0 and below 1",
+                            settings.early_termination));
+  if (settings.threads < 0)
+    throw Error(fmt::format("{} threads: it must be 1 or more, or 0 for all", settings.threads));
+  if (settings.integrator.samples < 1)
+    throw Error(fmt::format("{} samples per segment: at least 1", settings.integrator.samples));
+  for (const std::string& channel : settings.channels)
+    if (std::find(kChannels.begin(), kChannels.end(), channel) == kChannels.end())
+      throw Error(fmt::format("no channel '{}'; there are: {}", channel,
+                              fmt::join(kChannels, " ")));
+}
+
+struct Counts {
+  std::uint64_t hit = 0, entries = 0, cells = 0, lost = 0;
+
+  void add(const TraceResult& trace) {
+    hit += trace.entries > 0 ? 1 : 0;
+    entries += trace.entries;
+    cells += trace.cells;
+    lost += trace.end == WalkEnd::lost ? 1 : 0;
+  }
+};
+
+// One frame: shared by all tiles.
+class Frame {
+ public:
+  Frame(const Scene& scene, const Camera& camera, const RenderSettings& settings)
+      : scene_(scene), settings_(settings), rays_(camera, settings.width, settings.height) {
+    image_.width = settings.width;
+    image_.height = settings.height;
+    image_.rgba.assign(4 * pixels(), 0);
+    for (const std::string& name : settings.channels) channel_place(name);
+    if (settings.mode == Mode::maximum) raw_ = channel_place("maximum");
+    if (settings.mode == Mode::integral) raw_ = channel_place("integral");
+    if (settings.mode == Mode::depth) raw_ = channel_place("depth");
+    depth_ = wanted("depth");
+    optical_depth_ = wanted("optical_depth");
+    cell_id_ = wanted("cell_id");
+    cell_count_ = wanted("cell_count");
+  }
+
+  bool whole_rays() const { return optical_depth_ || cell_count_; }
+  Image& image() { return image_; }
+  std::size_t pixels() const {
+    return static_cast<std::size_t>(settings_.width) * static_cast<std::size_t>(settings_.height);
+  }
+
+  template <class Walkable, class Integrator>
+  void render_tile(const Walkable& walkable, const Integrator& integrator, int tile_x, int tile_y,
+                   Counts& counts) {
+    const int end_x = std::min(tile_x + kTile, settings_.width);
+    const int end_y = std::min(tile_y + kTile, settings_.height);
+    for (int y = tile_y; y < end_y; ++y)
+      for (int x = tile_x; x < end_x; ++x) {
+        const std::size_t index = static_cast<std::size_t>(y) * static_cast<std::size_t>(settings_.width) +
+                                  static_cast<std::size_t>(x);
+        counts.add(render_pixel(walkable, integrator, rays_(x + 0.5, y + 0.5), index));
+      }
+  }
+
+  // Modes whose shades depend on the whole picture's range.
+  void shade_raw() {
+    if (settings_.mode != Mode::integral && settings_.mode != Mode::depth) return;
+    const auto& values = image_.channels[*raw_].values;
+    float low = kInfinity, high = -kInfinity;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (image_.rgba[4 * i + 3] == 0) continue;
+      low = std::min(low, values[i]);
+      high = std::max(high, values[i]);
+    }
+    if (settings_.mode == Mode::integral) low = std::min(low, 0.0f);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (image_.rgba[4 * i + 3] == 0) continue;
+      float shade = high > low ? (values[i] - low) / (high - low) : 1.0f;
+      if (settings_.mode == Mode::depth && high > low) shade = 1 - shade;
+      std::fill_n(&image_.rgba[4 * i], 3, shade);
+    }
+  }
+
+ private:
+  std::size_t channel_place(const std::string& name) {
+    for (std::size_t i = 0; i < image_.channels.size(); ++i)
+      if (image_.channels[i].name == name) return i;
+    image_.channels.push_back({name, std::vector<float>(pixels(), 0)});
+    return image_.channels.size() - 1;
+  }
+  std::optional<std::size_t> wanted(const std::string& name) {
+    const auto& list = settings_.channels;
+    if (std::find(list.begin(), list.end(), name) == list.end()) return std::nullopt;
+    return channel_place(name);
+  }
+
+  template <class Walkable, class Integrator>
+  TraceResult render_pixel(const Walkable& walkable, const Integrator& integrator, const Ray& ray,
+                           std::size_t index) {
+    if (!(depth_ || cell_id_ || whole_rays()))
+      return shade(walkable, integrator, ray, index, [](const Segment&) { return false; });
+    ChannelPixel<Integrator> channels{{integrator}};
+    const bool whole = whole_rays();
+    const TraceResult result = shade(walkable, integrator, ray, index, [&](const Segment& segment) {
+      channels(segment);
+      return whole;
+    });
+    auto put = [&](const std::optional<std::size_t>& channel, double value) {
+      if (channel) image_.channels[*channel].values[index] = static_cast<float>(value);
+    };
+    put(depth_, channels.first.depth);
+    put(optical_depth_, channels.optical_depth);
+    put(cell_count_, static_cast<double>(channels.cells));
+    put(cell_id_, channels.first.cell == kNone ? -1.0
+                                               : walkable.mesh.original_cell(channels.first.cell));
+    return result;
+  }
+
+  // Traces one ray and shades its pixel. `besides` sees every segment too; where it returns true
+  // the ray goes on though the picture has seen enough.
+  template <class Walkable, class Integrator, class Besides>
+  TraceResult shade(const Walkable& walkable, const Integrator& integrator, const Ray& ray,
+                    std::size_t index, const Besides& besides) {
+    auto follow = [&](auto& pixel) {
+      bool more = true;
+      return trace(walkable.mesh, walkable.boundary, ray, [&](const Segment& segment) {
+        const bool go_on = besides(segment);
+        if (more) more = pixel(segment);
+        return more || go_on;
+      });
+    };
+    float* rgba = &image_.rgba[4 * index];
+    TraceResult result;
+    switch (settings_.mode) {
+      case Mode::volume: {
+        VolumePixel<Integrator> pixel{integrator, static_cast<float>(settings_.early_termination)};
+        result = follow(pixel);
+        for (std::size_t c = 0; c < 3; ++c) rgba[c] = static_cast<float>(pixel.compositor.rgb[c]);
+        rgba[3] = static_cast<float>(pixel.compositor.alpha());
+        break;
+      }
+      case Mode::maximum: {
+        MaximumPixel pixel;
+        result = follow(pixel);
+        const bool any = pixel.maximum > -kInfinity;
+        image_.channels[*raw_].values[index] =
+            any ? pixel.maximum : std::numeric_limits<float>::quiet_NaN();
+        if (!any) break;
+        const Optics optics = scene_.transfer_function().at(pixel.maximum);
+        std::copy(optics.color.begin(), optics.color.end(), rgba);
+        rgba[3] = 1;
+        break;
+      }
+      case Mode::integral: {
+        IntegralPixel pixel;
+        result = follow(pixel);
+        image_.channels[*raw_].values[index] = static_cast<float>(pixel.integral);
+        rgba[3] = result.cells > 0 ? 1.0f : 0.0f;
+        break;
+      }
+      case Mode::depth: {
+        FirstPixel<Integrator> pixel{integrator};
+        result = follow(pixel);
+        image_.channels[*raw_].values[index] = static_cast<float>(pixel.depth);
+        rgba[3] = pixel.depth < kInfinity ? 1.0f : 0.0f;
+        break;
+      }
+    }
+    return result;
+  }
+
+  const Scene& scene_;
+  const RenderSettings& settings_;
+  PixelRays rays_;
+  Image image_;
+  std::optional<std::size_t> raw_, depth_, optical_depth_, cell_id_, cell_count_;
+};
+
+// Calls the user's progress function with growing shares, one thread at a time.
+class ProgressReport {
+ public:
+  ProgressReport(const Progress& progress, int tiles) : progress_(progress), tiles_(tiles) {}
+
+  void tile_done() {
+    if (!progress_) return;
+    const std::lock_guard lock(guard_);
+    ++done_;
+    if (!cancelled_ && !progress_(static_cast<double>(done_) / tiles_)) cancelled_ = true;
+  }
+  bool cancelled() const { return cancelled_; }
+
+ private:
+  const Progress& progress_;
+  const int tiles_;
+  std::mutex guard_;
+  int done_ = 0;
+  std::atomic<bool> cancelled_ = false;
+};
+
+std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings& settings) {
+  std::vector<std::string> plan;
+  const std::string form = scene.form();
+  plan.push_back(fmt::format(
+      "walk: {} ({})", form,
+      form == "tetrahedra" ? "all cells are tetrahedra: the scalar is linear in each"
+      : form == "grid"     ? "one curvilinear grid: neighbours follow from the indices"
+                           : "mixed cells: faces and their two sides are stored"));
+  plan.push_back(fmt::format("scalar: {}, {}", scene.field().name,
+                             scene.field().association == Association::cell
+                                 ? "constant in each cell, as the field is cell-centred"
+                                 : "linear between a cell's faces"));
+  switch (settings.mode) {
+    case Mode::volume: {
+      constexpr const char* kNames[] = {"midpoint", "table", "closed form"};
+      plan.push_back(fmt::format("integrator: {} ({} knots)",
+                                 kNames[static_cast<int>(settings.integrator.kind)],
+                                 scene.transfer_function().knots.size()));
+      break;
+    }
+    case Mode::maximum: plan.push_back("maximum of the scalar: no optics"); break;
+    case Mode::integral: plan.push_back("integral of the scalar: no optics"); break;
+    case Mode::depth: plan.push_back("first contribution: optical depth alone"); break;
+  }
+  return plan;
+}
+
+}  // namespace
+
+RenderResult render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                    const Progress& progress) {
+  check(settings);
+  RenderSettings effective = settings;
+  Frame frame(scene, camera, effective);
+  RenderResult result;
+  result.statistics.plan = describe_plan(scene, settings);
+  if (frame.whole_rays() && settings.mode == Mode::volume) {
+    effective.early_termination = 0;
+    result.statistics.plan.push_back("early termination: off, as a channel needs whole rays");
+  } else if (settings.mode == Mode::volume) {
+    result.statistics.plan.push_back(
+        fmt::format("early termination: at a transmittance of {:g}", settings.early_termination));
+  }
+
+  const int tiles_x = (settings.width + kTile - 1) / kTile;
+  const int tiles_y = (settings.height + kTile - 1) / kTile;
+  ProgressReport report(progress, tiles_x * tiles_y);
+  tbb::enumerable_thread_specific<Counts> counts;
+  // A table is built only where the picture needs what is in it: colours.
+  if (settings.mode != Mode::volume) effective.integrator.kind = IntegratorKind::closed_form;
+  const Integrator integrator = make_integrator(scene.transfer_function(), effective.integrator);
+  tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
+  std::visit(
+      [&](const auto& walkable, const auto& chosen) {
+        arena.execute([&] {
+          tbb::parallel_for(tbb::blocked_range<int>(0, tiles_x * tiles_y, 1), [&](const auto& range) {
+            for (int tile = range.begin(); tile != range.end(); ++tile) {
+              if (report.cancelled()) return;
+              frame.render_tile(*walkable, chosen, tile % tiles_x * kTile, tile / tiles_x * kTile,
+                                counts.local());
+              report.tile_done();
+            }
+          });
+        });
+      },
+      scene.body().walkable, integrator);
+  frame.shade_raw();
+
+  for (const Counts& part : counts) {
+    result.statistics.rays_hit += part.hit;
+    result.statistics.entries += part.entries;
+    result.statistics.cells_visited += part.cells;
+    result.statistics.lost_rays += part.lost;
+  }
+  result.statistics.rays = frame.pixels();
+  result.cancelled = report.cancelled();
+  result.image = std::move(frame.image());
+  return result;
+}
+
+}  // namespace plume

@@ -1,0 +1,71 @@
+/// From a scene to a picture.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "plume/lib/camera.h"
+#include "plume/lib/image.h"
+#include "plume/lib/scene.h"
+#include "plume/preint/integrator.h"
+
+namespace plume {
+
+/// What a pixel shows.
+enum class Mode : std::uint8_t {
+  /// Emission and absorption by the transfer function.
+  volume,
+  /// The greatest scalar along the ray, in the transfer function's colour for it; opaque where the
+  /// ray meets the mesh. Channel "maximum".
+  maximum,
+  /// The integral of the scalar along the ray, in field units times world length units, as a shade
+  /// of gray from the picture's least (or 0) to its greatest. Channel "integral".
+  integral,
+  /// The distance to the first segment that is not transparent, as a shade of gray: the nearest is
+  /// white, the farthest black. Channel "depth".
+  depth,
+};
+
+struct RenderSettings {
+  int width = 1024;   ///< pixels, 1 to 65536
+  int height = 768;   ///< pixels, 1 to 65536
+  Mode mode = Mode::volume;
+  IntegratorSettings integrator;
+  /// A ray ends once it is seen through by no more than this share: a colour channel is off by at
+  /// most this times the transfer function's largest value in it. In [0, 1).
+  double early_termination = 1e-4;
+  /// Threads to use, 0 for all there are. The picture is the same for any number.
+  int threads = 0;
+  /// Further channels: "depth", "optical_depth", "cell_id", "cell_count". The last two but one and
+  /// the last need the whole ray, so early termination is off where one of them is asked for.
+  std::vector<std::string> channels;
+};
+
+struct RenderStatistics {
+  std::uint64_t rays = 0;
+  std::uint64_t rays_hit = 0;       ///< rays that came into the mesh
+  std::uint64_t entries = 0;        ///< times that a ray came in through the boundary
+  std::uint64_t cells_visited = 0;  ///< cells walked through by all rays
+  std::uint64_t lost_rays = 0;      ///< rays that found no way out: 0
+  /// What was chosen for this scene and why, one choice a line.
+  std::vector<std::string> plan;
+};
+
+struct RenderResult {
+  Image image;
+  RenderStatistics statistics;
+  /// True where the progress callback asked to stop; the image is then incomplete.
+  bool cancelled = false;
+};
+
+/// Called with the share done, from 0 to 1, never by two threads at once; false cancels.
+using Progress = std::function<bool(double)>;
+
+/// Renders a picture, in parallel. Throws Error where the settings or the camera are wrong, naming
+/// the value.
+RenderResult render(const Scene& scene, const Camera& camera, const RenderSettings& settings = {},
+                    const Progress& progress = {});
+
+}  // namespace plume

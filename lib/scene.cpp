@@ -1,0 +1,112 @@
+#include "plume/lib/scene.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "plume/lib/fitted_map.h"
+#include "plume/lib/scene_body.h"
+#include "plume/mesh/connected_parts.h"
+#include "plume/mesh/error.h"
+#include "plume/mesh/validate.h"
+
+namespace plume {
+namespace {
+
+bool all_tetrahedra(const Mesh& mesh) {
+  return mesh.cells.types.visit([](auto types) {
+    return std::all_of(types.begin(), types.end(), [](auto type) {
+      return static_cast<int>(type) == static_cast<int>(CellType::tetrahedron);
+    });
+  });
+}
+
+}  // namespace
+
+Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_unique<Body>()) {
+  body_->bounds = check_structure(mesh);
+  body_->field = select_field(mesh, options.field);
+  const ScalarField& field = body_->field;
+  body_->default_map = fitted_color_map(field.values);
+  body_->transfer_function = to_transfer_function(body_->default_map, default_unit_distance());
+  if (field.not_finite > 0)
+    body_->findings.push_back(
+        {fmt::format("values of '{}' are NaN or infinite; they are transparent", field.name),
+         field.not_finite,
+         {}});
+
+  auto take = [this](auto walkable) {
+    auto& found = walkable->mesh.findings;
+    std::move(found.begin(), found.end(), std::back_inserter(body_->findings));
+    found.clear();
+    body_->walkable = std::move(walkable);
+  };
+  if (mesh.is_grid())
+    take(std::make_unique<Walkable<GridWalker>>(make_walkable_grid(mesh, field, body_->bounds)));
+  else if (all_tetrahedra(mesh))
+    take(std::make_unique<Walkable<TetWalker>>(
+        make_walkable_tets(mesh, field, body_->bounds, options.keep_cell_numbers)));
+  else
+    take(std::make_unique<Walkable<CellWalker>>(
+        make_walkable_cells(mesh, field, body_->bounds, options.keep_cell_numbers)));
+  body_->field.values = {};
+}
+
+Scene::~Scene() = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+
+const Bounds& Scene::bounds() const { return body_->bounds; }
+const ScalarField& Scene::field() const { return body_->field; }
+const std::vector<Finding>& Scene::findings() const { return body_->findings; }
+const ColorMap& Scene::default_color_map() const { return body_->default_map; }
+const TransferFunction& Scene::transfer_function() const { return body_->transfer_function; }
+
+double Scene::default_unit_distance() const {
+  const double diagonal = body_->bounds.diagonal();
+  return diagonal > 0 ? diagonal / 10 : 1;
+}
+
+void Scene::set_transfer_function(TransferFunction transfer_function) {
+  if (const auto problem = transfer_function.problem())
+    throw Error(fmt::format("transfer function: {}", *problem));
+  body_->transfer_function = std::move(transfer_function);
+}
+
+const char* Scene::form() const {
+  constexpr const char* kForms[] = {"tetrahedra", "grid", "cells"};
+  return kForms[body_->walkable.index()];
+}
+
+std::size_t Scene::cell_count() const {
+  return std::visit([](const auto& w) { return w->mesh.cell_count(); }, body_->walkable);
+}
+
+std::size_t Scene::point_count() const {
+  return std::visit([](const auto& w) { return w->mesh.points.size(); }, body_->walkable);
+}
+
+std::size_t Scene::boundary_face_count() const {
+  return std::visit([](const auto& w) { return w->mesh.boundary.size(); }, body_->walkable);
+}
+
+std::size_t Scene::connected_part_count() const {
+  return std::visit([](const auto& w) { return connected_parts(w->mesh); }, body_->walkable);
+}
+
+std::size_t Scene::bytes() const {
+  return std::visit([](const auto& w) { return w->mesh.bytes(); }, body_->walkable);
+}
+
+TraceResult Scene::trace(const Ray& ray, const std::function<bool(const Segment&)>& visit) const {
+  return std::visit(
+      [&](const auto& w) {
+        return plume::trace(w->mesh, w->boundary, ray, [&](Segment segment) {
+          segment.cell = w->mesh.original_cell(segment.cell);
+          return visit(segment);
+        });
+      },
+      body_->walkable);
+}
+
+}  // namespace plume

@@ -1,0 +1,79 @@
+/// What is looked at: a mesh made walkable, one of its fields, and what the values look like.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "plume/lib/color_map.h"
+#include "plume/mesh/findings.h"
+#include "plume/mesh/local_frame.h"
+#include "plume/mesh/mesh.h"
+#include "plume/mesh/scalar_field.h"
+#include "plume/preint/transfer_function.h"
+#include "plume/traverse/ray.h"
+#include "plume/traverse/segment.h"
+
+namespace plume {
+
+struct SceneOptions {
+  /// Which field; by default the mesh's active one, else its first.
+  FieldRequest field;
+  /// Keep the numbers of the user's cells, 4 bytes each; needed for the channel "cell_id".
+  bool keep_cell_numbers = false;
+};
+
+/// Immutable but for the transfer function; safe to render from several threads.
+class Scene {
+ public:
+  /// Checks the mesh, makes it walkable (in parallel) and chooses a transfer function that shows
+  /// something of the field's range. The mesh itself is needed no more once this has returned.
+  /// Throws Error where the mesh or the field request is wrong.
+  explicit Scene(const Mesh& mesh, const SceneOptions& options = {});
+  ~Scene();
+  Scene(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;
+
+  const Bounds& bounds() const;
+  /// The chosen field: name, association, range, count of values that are not finite. Its values
+  /// are empty: they live in the walkable form.
+  const ScalarField& field() const;
+  /// What was found on the way, in words for users.
+  const std::vector<Finding>& findings() const;
+  /// "tetrahedra", "grid" or "cells": the form in which the mesh is walked.
+  const char* form() const;
+  std::size_t cell_count() const;
+  std::size_t point_count() const;
+  std::size_t boundary_face_count() const;
+  /// Parts that hang together by faces, counted at each call.
+  std::size_t connected_part_count() const;
+  /// Bytes of the walkable form, the boundary's hierarchy not included.
+  std::size_t bytes() const;
+
+  /// The colour map fitted to the field's values: a diverging map from the 1st to the 99th percentile,
+  /// the more opaque the rarer a value is.
+  const ColorMap& default_color_map() const;
+  /// The default distance over which a colour map's opacity applies: a tenth of the diagonal of the
+  /// bounds.
+  double default_unit_distance() const;
+
+  const TransferFunction& transfer_function() const;
+  /// Throws Error where the transfer function has a problem (see TransferFunction::problem).
+  void set_transfer_function(TransferFunction transfer_function);
+
+  /// Follows a ray and calls `visit` for each segment, front to back, until that returns false.
+  /// `Segment::cell` is a number of the user's mesh where keep_cell_numbers was set or the mesh is a
+  /// grid. For programs with an optics of their own; see traverse/trace.h for the guarantees.
+  TraceResult trace(const Ray& ray, const std::function<bool(const Segment&)>& visit) const;
+
+  struct Body;
+  /// For render().
+  const Body& body() const { return *body_; }
+
+ private:
+  std::unique_ptr<Body> body_;
+};
+
+}  // namespace plume

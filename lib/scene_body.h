@@ -1,0 +1,36 @@
+/// What is inside of a Scene: for scene.cpp and render.cpp.
+#pragma once
+
+#include <memory>
+#include <variant>
+
+#include "plume/lib/scene.h"
+#include "plume/traverse/trace.h"
+
+namespace plume {
+
+/// A walkable mesh with the hierarchy over its boundary, which refers to it.
+template <class W>
+struct Walkable {
+  using Walker = W;
+  typename W::Mesh mesh;
+  BoundaryIndex<W> boundary;
+
+  explicit Walkable(typename W::Mesh walkable_mesh)
+      : mesh(std::move(walkable_mesh)), boundary(mesh) {}
+  Walkable(const Walkable&) = delete;
+  Walkable& operator=(const Walkable&) = delete;
+};
+
+struct Scene::Body {
+  std::variant<std::unique_ptr<Walkable<TetWalker>>, std::unique_ptr<Walkable<GridWalker>>,
+               std::unique_ptr<Walkable<CellWalker>>>
+      walkable;
+  Bounds bounds;
+  ScalarField field;
+  std::vector<Finding> findings;
+  ColorMap default_map;
+  TransferFunction transfer_function;
+};
+
+}  // namespace plume

@@ -1,0 +1,288 @@
+// Every ray comes out, whatever it is aimed at and however bad the mesh.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "adversarial_rays.h"
+#include "plume/datasets/generate.h"
+#include "plume/mesh/validate.h"
+#include "plume/tests/reference/box_chord.h"
+#include "plume/tests/reference/brute_force.h"
+#include "plume/traverse/trace.h"
+
+namespace plume::test {
+namespace {
+
+struct Walk {
+  TraceResult result;
+  std::vector<Segment> segments;
+
+  double sum() const {
+    double total = 0;
+    for (const Segment& s : segments) total += s.t_out - s.t_in;
+    return total;
+  }
+};
+
+template <class Walker>
+struct Traced {
+  typename Walker::Mesh mesh;
+  BoundaryIndex<Walker> boundary;
+
+  explicit Traced(typename Walker::Mesh m) : mesh(std::move(m)), boundary(mesh) {}
+
+  Walk operator()(const Ray& ray) const {
+    Walk walk;
+    walk.result = trace(mesh, boundary, ray, [&](const Segment& segment) {
+      walk.segments.push_back(segment);
+      return true;
+    });
+    return walk;
+  }
+};
+
+Traced<TetWalker> trace_as_tets(const Mesh& mesh) {
+  return Traced<TetWalker>(
+      make_walkable_tets(mesh, select_field(mesh), check_structure(mesh), true));
+}
+Traced<GridWalker> trace_as_grid(const Mesh& mesh) {
+  return Traced<GridWalker>(make_walkable_grid(mesh, select_field(mesh), check_structure(mesh)));
+}
+Traced<CellWalker> trace_as_cells(const Mesh& mesh) {
+  return Traced<CellWalker>(
+      make_walkable_cells(mesh, select_field(mesh), check_structure(mesh), true));
+}
+
+Mesh moved(Mesh mesh, double scale, double offset) {
+  std::vector<double> points(mesh.points.size());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    points[i] = mesh.points.at<double>(i) * scale + offset;
+  mesh.points = Array::own(std::move(points));
+  return mesh;
+}
+
+// What rounding may make of a chord: the true box, made smaller and larger by what single precision
+// resolves of the mesh. A ray in the plane of a side sees all or nothing of it.
+void expect_chord(const Bounds& bounds, const Ray& ray, double sum, const std::string& which) {
+  const double slack = 2e-6 * bounds.diagonal();
+  std::array<double, 3> inner_low = bounds.low, inner_high = bounds.high;
+  std::array<double, 3> outer_low = bounds.low, outer_high = bounds.high;
+  for (std::size_t a = 0; a < 3; ++a) {
+    inner_low[a] += slack;
+    inner_high[a] -= slack;
+    outer_low[a] -= slack;
+    outer_high[a] += slack;
+  }
+  ASSERT_GE(sum, reference::box_chord(inner_low, inner_high, ray.origin, ray.direction) - slack)
+      << which;
+  ASSERT_LE(sum, reference::box_chord(outer_low, outer_high, ray.origin, ray.direction) + slack)
+      << which;
+}
+
+// `rays` rays through a mesh that fills its bounds: none lost, segments that join, sums that are
+// chords, and the same backwards.
+template <class Walker>
+void expect_no_ray_lost(const Traced<Walker>& traced, const Mesh& mesh, std::uint64_t rays,
+                        std::uint64_t seed, bool folded) {
+  const Bounds bounds = bounds_of(mesh.points);
+  AdversarialRays make_ray(mesh, bounds, seed);
+  for (std::uint64_t i = 0; i < rays; ++i) {
+    Ray ray = make_ray(i);
+    ray.t_min = -std::numeric_limits<double>::infinity();
+    const std::string which = "ray " + std::to_string(i);
+    const Walk walk = traced(ray);
+    ASSERT_EQ(walk.result.end, WalkEnd::left) << which;
+    ASSERT_EQ(walk.result.cells, walk.segments.size()) << which;
+    expect_chord(bounds, ray, walk.sum(), which);
+    for (std::size_t s = 0; s < walk.segments.size(); ++s) {
+      ASSERT_LE(walk.segments[s].t_in, walk.segments[s].t_out) << which;
+      if (s > 0 && walk.result.entries == 1) {
+        ASSERT_EQ(walk.segments[s].t_in, walk.segments[s - 1].t_out) << which;
+        ASSERT_EQ(walk.segments[s].s_in, walk.segments[s - 1].s_out) << which;
+      }
+    }
+    Ray back = ray;
+    for (double& x : back.direction) x = -x;
+    const Walk reversed = traced(back);
+    ASSERT_EQ(reversed.result.entries, walk.result.entries) << which;
+    if (walk.result.entries != 1) {
+      expect_chord(bounds, back, reversed.sum(), which);
+      continue;
+    }
+    ASSERT_EQ(reversed.segments.size(), walk.segments.size()) << which;
+    for (std::size_t s = 0; s < walk.segments.size(); ++s) {
+      const Segment& forth = walk.segments[s];
+      const Segment& other = reversed.segments[walk.segments.size() - 1 - s];
+      ASSERT_EQ(forth.cell, other.cell) << which;
+      if (folded) continue;  // where cells overlap, lengths go to the first that claims them
+      ASSERT_NEAR(forth.t_in, -other.t_out, 1e-6 * bounds.diagonal()) << which;
+      ASSERT_NEAR(forth.t_out, -other.t_in, 1e-6 * bounds.diagonal()) << which;
+    }
+  }
+}
+
+struct Case {
+  const char* name;
+  double jitter, scale, offset;
+};
+// Inverted: points moved by up to three cell edges. Shifted: where single precision has one digit.
+const Case kCases[] = {{"clean", 0.0, 1, 0},       {"jittered", 0.2, 1, 0},
+                       {"inverted", 3.0, 1, 0},    {"shifted", 0.2, 1, 1e7},
+                       {"tiny", 0.2, 1e-9, 0},     {"huge and inverted", 3.0, 1e9, 1e9}};
+
+Mesh box(const std::string& name, const Case& c) {
+  return moved(generate(name, {12, c.jitter, 7}), c.scale, c.offset);
+}
+
+// Together a million rays: 6 x 100,000, 6 x 40,000, 6 x 10,000 and 2 x 50,000.
+TEST(Walkers, LoseNoRayThroughTetrahedra) {
+  for (const Case& c : kCases) {
+    SCOPED_TRACE(c.name);
+    const Mesh mesh = box("box-tetrahedra", c);
+    expect_no_ray_lost(trace_as_tets(mesh), mesh, 100000, 11, c.jitter > 0.3);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(Walkers, LoseNoRayThroughAGrid) {
+  for (const Case& c : kCases) {
+    SCOPED_TRACE(c.name);
+    const Mesh mesh = box("box-hexahedra", c);
+    expect_no_ray_lost(trace_as_grid(mesh), mesh, 40000, 12, c.jitter > 0.3);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(Walkers, LoseNoRayThroughMixedCells) {
+  for (const Case& c : kCases) {
+    SCOPED_TRACE(c.name);
+    const Mesh mesh = box("box-mixed", c);
+    expect_no_ray_lost(trace_as_cells(mesh), mesh, 10000, 13, c.jitter > 0.3);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(Walkers, LoseNoRayThroughTwistedAndTouchingCells) {
+  const Mesh twisted = generate("twisted", {16, 0.2, 1});
+  expect_no_ray_lost(trace_as_grid(twisted), twisted, 50000, 14, false);
+  const Mesh blocks = generate("two-blocks", {8, 0.2, 1});
+  expect_no_ray_lost(trace_as_cells(blocks), blocks, 50000, 15, false);
+}
+
+TEST(Walkers, LoseNoRayThroughPolyhedraAndWedges) {
+  for (const char* name : {"box-polyhedra", "box-wedges"}) {
+    SCOPED_TRACE(name);
+    const Mesh mesh = generate(name, {8, 0.2, 1});
+    expect_no_ray_lost(trace_as_cells(mesh), mesh, 10000, 16, false);
+    if (HasFatalFailure()) return;
+  }
+}
+
+TEST(Walkers, PassAPoleAndASeam) {
+  const Mesh mesh = generate("o-grid", {12, 0.2, 1});
+  const auto traced = trace_as_grid(mesh);
+  AdversarialRays make_ray(mesh, bounds_of(mesh.points), 17);
+  for (std::uint64_t i = 0; i < 50000; ++i) {
+    const Walk walk = traced(make_ray(i));
+    ASSERT_EQ(walk.result.end, WalkEnd::left) << "ray " << i;
+    // A convex prism: what is covered is one interval, though the seam is left and entered again.
+    for (std::size_t s = 1; s < walk.segments.size(); ++s)
+      ASSERT_EQ(walk.segments[s].t_in, walk.segments[s - 1].t_out) << "ray " << i;
+  }
+}
+
+TEST(TetWalker, FindsTheCellsThatClippingFinds) {
+  const Mesh mesh = generate("box-tetrahedra", {5, 0.25, 3});
+  std::vector<std::array<std::array<double, 3>, 4>> corners(mesh.cell_count());
+  for (std::size_t c = 0; c < corners.size(); ++c)
+    for (std::size_t v = 0; v < 4; ++v)
+      corners[c][v] = point_at(mesh, mesh.cells.connectivity.at<std::size_t>(4 * c + v));
+  const auto traced = trace_as_tets(mesh);
+  AdversarialRays make_ray(mesh, bounds_of(mesh.points), 5);
+  constexpr double kShort = 1e-5;  // spans that rounding may add or take away
+  for (std::uint64_t i = 0; i < 600; ++i) {
+    const Ray ray = make_ray(6 * i);  // a random one
+    const auto expected = reference::clip_tetrahedra(corners, ray.origin, ray.direction, kShort);
+    std::vector<Segment> found;
+    for (const Segment& s : traced(ray).segments)
+      if (s.t_out - s.t_in > kShort) found.push_back(s);
+    std::size_t at = 0;
+    for (const auto& span : expected) {
+      if (span.t_out - span.t_in < 2 * kShort) continue;
+      while (at < found.size() && traced.mesh.original_cell(found[at].cell) != span.cell) ++at;
+      ASSERT_LT(at, found.size()) << "ray " << i << " misses cell " << span.cell;
+      // Single precision moves the ray by some 3e-7 against a mesh of size one.
+      ASSERT_NEAR(found[at].t_in, span.t_in, 3e-7 / span.cosine_in) << "ray " << i;
+      ASSERT_NEAR(found[at].t_out, span.t_out, 3e-7 / span.cosine_out) << "ray " << i;
+    }
+    ASSERT_LE(found.size(), expected.size() + 2) << "ray " << i;
+  }
+}
+
+TEST(Walkers, SeeALinearFieldAsItIs) {
+  struct Form {
+    const char* name;
+    bool grid;
+  };
+  for (const Form& form : {Form{"box-tetrahedra", false}, Form{"box-hexahedra", true},
+                           Form{"box-mixed", false}, Form{"box-polyhedra", false},
+                           Form{"box-wedges", false}}) {
+    SCOPED_TRACE(form.name);
+    Mesh mesh = generate(form.name, {6, 0.2, 2});
+    mesh.active_field = "linear";
+    AdversarialRays make_ray(mesh, bounds_of(mesh.points), 9);
+    auto check = [&](const auto& traced) {
+      for (std::uint64_t i = 0; i < 3000; ++i) {
+        const Ray ray = make_ray(i);
+        for (const Segment& s : traced(ray).segments) {
+          auto field = [&](double t) {
+            return ray.origin[0] + t * ray.direction[0] + 2 * (ray.origin[1] + t * ray.direction[1]) +
+                   3 * (ray.origin[2] + t * ray.direction[2]);
+          };
+          ASSERT_NEAR(s.s_in, field(s.t_in), 1e-5) << "ray " << i;
+          ASSERT_NEAR(s.s_out, field(s.t_out), 1e-5) << "ray " << i;
+        }
+      }
+    };
+    if (form.grid) check(trace_as_grid(mesh));
+    else if (std::string(form.name) == "box-tetrahedra") check(trace_as_tets(mesh));
+    else check(trace_as_cells(mesh));
+  }
+}
+
+TEST(Walkers, StartInsideWhereTheRayStarts) {
+  const Mesh mesh = generate("box-tetrahedra", {6, 0.2, 2});
+  const auto traced = trace_as_tets(mesh);
+  AdversarialRays make_ray(mesh, bounds_of(mesh.points), 21);
+  for (std::uint64_t i = 0; i < 5000; ++i) {
+    Ray ray = make_ray(6 * i);
+    const double middle = 2 * bounds_of(mesh.points).diagonal();  // the ray's target is inside
+    const Walk whole = traced(ray);
+    if (whole.segments.empty()) continue;
+    const double begin = whole.segments.front().t_in, end = whole.segments.back().t_out;
+    const double start = begin + 0.3 * (end - begin), stop = begin + 0.8 * (end - begin);
+    ray.t_min = start;
+    ray.t_max = stop;
+    const Walk part = traced(ray);
+    ASSERT_NEAR(part.sum(), stop - start, 1e-9 * middle) << "ray " << i;
+    ASSERT_EQ(part.segments.front().t_in, start);
+    ASSERT_EQ(part.segments.back().t_out, stop);
+  }
+}
+
+TEST(Walkers, MeetNothingWithoutADirection) {
+  const Mesh mesh = generate("box-tetrahedra", {2, 0, 1});
+  const auto traced = trace_as_tets(mesh);
+  Ray ray{{0.5, 0.5, -1}, {0, 0, 0}};
+  EXPECT_TRUE(traced(ray).segments.empty());
+  ray.direction = {0, std::numeric_limits<double>::quiet_NaN(), 1};
+  EXPECT_TRUE(traced(ray).segments.empty());
+  ray.direction = {0, 0, 1};
+  EXPECT_FALSE(traced(ray).segments.empty());
+}
+
+}  // namespace
+}  // namespace plume::test
