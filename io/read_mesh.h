@@ -13,12 +13,12 @@ namespace plume {
 
 struct ReadOptions {
   /// Plot3D: the q file that belongs to the grid.
-  std::filesystem::path solution;
+  std::filesystem::path solution{};
   /// Merge points of neighbouring blocks that have the same coordinates, bit for bit.
   bool merge_points = false;
   /// Which time step of a file that holds several (.pvd, Exodus, EnSight, OpenFOAM, CGNS); the last
   /// by default. 0 is the first.
-  std::optional<int> time_step;
+  std::optional<int> time_step{};
 };
 
 /// Something the user should know though it is no error: "12 triangles dropped: not volume cells".
@@ -27,10 +27,10 @@ using Notice = std::function<void(const std::string&)>;
 /// Reads a mesh with all of its fields, converting as little as it can: arrays are borrowed from
 /// VTK where the types allow it.
 ///
-/// Formats, by extension: .vtu .pvtu .vtk .vts .pvts .vti .pvti .vtr .pvtr .vtm .pvd, Plot3D (.xyz .x .g .p3d
-/// .bin .fmt .grid, binary or text, either byte order, one block or several), Exodus II (.e .ex2 .exo .exii .g
-/// where it is no Plot3D), EnSight Gold (.case), OpenFOAM (.foam, or a case directory), CGNS
-/// (.cgns), Fluent (.cas, .msh).
+/// Formats, by extension: .vtu .pvtu .vtk .vts .pvts .vti .pvti .vtr .pvtr .vtm .pvd, Plot3D (.xyz
+/// .x .g .p3d .bin .fmt .grid, binary or text, either byte order, one block or several), Exodus II
+/// (.e .ex2 .exo .exii .g where it is no Plot3D), EnSight Gold (.case), OpenFOAM (.foam, or a case
+/// directory), CGNS (.cgns), Fluent (.cas, .msh).
 ///
 /// One block of a structured grid stays a grid (`Mesh::dimensions`); several blocks, and everything
 /// else, become explicit cells. Cells that are not volumes are dropped and counted in a notice,

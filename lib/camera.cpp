@@ -58,12 +58,25 @@ Camera fitted_camera(const Bounds& bounds, const Vector& direction, const Vector
   if (length(view_up) == 0)
     camera.view_up = std::abs(forward[2]) > 0.99 ? Vector{0, 1, 0} : Vector{0, 0, 1};
   camera.focal_point = bounds.center();
-  const double radius = bounds.diagonal() > 0 ? 0.5 * bounds.diagonal() : 0.5;
-  const double half_angle = radians(0.5 * camera.view_angle);
-  const double narrow = std::fmin(1, aspect_ratio);
-  const double distance = radius / std::sin(std::atan(std::tan(half_angle) * narrow));
-  camera.position = sum(camera.focal_point, -distance, forward);
-  camera.parallel_scale = radius / narrow;
+
+  // The least distance, and the least scale, at which every corner of the bounds is seen.
+  const Vector right = normalized(cross(forward, camera.view_up));
+  const Vector up = cross(right, forward);
+  const double slope_y = std::tan(radians(0.5 * camera.view_angle));
+  const double slope_x = slope_y * aspect_ratio;
+  double distance = 0, scale = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    Vector arm;
+    for (std::size_t a = 0; a < 3; ++a)
+      arm[a] = ((corner >> a & 1) != 0 ? bounds.high[a] : bounds.low[a]) - camera.focal_point[a];
+    const double x = std::abs(dot(arm, right)), y = std::abs(dot(arm, up));
+    distance = std::fmax(distance, std::fmax(x / slope_x, y / slope_y) - dot(arm, forward));
+    scale = std::fmax(scale, std::fmax(x / aspect_ratio, y));
+  }
+  constexpr double kMargin = 1.05;
+  if (!(scale > 0)) scale = distance = 1;  // bounds of a single point, or a line seen end-on
+  camera.position = sum(camera.focal_point, -distance * kMargin, forward);
+  camera.parallel_scale = scale * kMargin;
   return camera;
 }
 

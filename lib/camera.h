@@ -22,8 +22,9 @@ struct Camera {
   double parallel_scale = 1;
 };
 
-/// A camera that looks along `direction` and sees all of `bounds` in a picture of that aspect ratio
-/// (width / height). `view_up` may be any direction but that of sight; zero lets us choose.
+/// A camera that looks along `direction` at the centre of `bounds` and sees just all of them, with
+/// a margin of 5%, in a picture of that aspect ratio (width / height). `view_up` may be any direction
+/// but that of sight; zero lets us choose.
 /// Throws Error where the direction is zero.
 Camera fitted_camera(const Bounds& bounds, const std::array<double, 3>& direction,
                      const std::array<double, 3>& view_up = {0, 0, 0}, double aspect_ratio = 1);

@@ -224,7 +224,8 @@ class Resampling {
       const double depth = (1 - t) * optical_depth(low) + t * optical_depth(high);
       if (std::abs(-std::expm1(-depth) - exact.opacity) > tolerance) return false;
       // The scaled opacity is what will be seen.
-      const double scaled = std::expm1(-scale_ * depth) - std::expm1(-scale_ * optical_depth(exact));
+      const double scaled =
+          std::expm1(-scale_ * depth) - std::expm1(-scale_ * optical_depth(exact));
       if (std::abs(scaled) > tolerance) return false;
     }
     return true;
@@ -236,8 +237,7 @@ class Resampling {
   void add_knot(const Shown& shown) {
     TransferFunction::Knot knot;
     knot.scalar = static_cast<float>(shown.x);
-    knot.optics.extinction =
-        static_cast<float>(optical_depth(shown) / unit_distance_ * scale_);
+    knot.optics.extinction = static_cast<float>(optical_depth(shown) / unit_distance_ * scale_);
     for (std::size_t c = 0; c < 3; ++c) {
       knot.optics.color[c] = static_cast<float>(shown.color[c]);
     }

@@ -135,11 +135,21 @@ std::array<double, 3> interpolate(ColorMap::Space space, const std::array<double
                                   const std::array<double, 3>& b, double t) {
   Color out{};
   switch (space) {
-    case ColorMap::Space::rgb: out = blend(a, b, t); break;
-    case ColorMap::Space::hsv: out = rgb_of_hsv(blend(hsv_of(a), hsv_of(b), t)); break;
-    case ColorMap::Space::lab: out = rgb_of_lab(blend(lab_of(a), lab_of(b), t)); break;
-    case ColorMap::Space::diverging: out = interpolate_diverging(a, b, t); break;
-    case ColorMap::Space::step: out = b; break;
+    case ColorMap::Space::rgb:
+      out = blend(a, b, t);
+      break;
+    case ColorMap::Space::hsv:
+      out = rgb_of_hsv(blend(hsv_of(a), hsv_of(b), t));
+      break;
+    case ColorMap::Space::lab:
+      out = rgb_of_lab(blend(lab_of(a), lab_of(b), t));
+      break;
+    case ColorMap::Space::diverging:
+      out = interpolate_diverging(a, b, t);
+      break;
+    case ColorMap::Space::step:
+      out = b;
+      break;
   }
   for (double& c : out) c = std::clamp(c, 0.0, 1.0);
   return out;

@@ -21,7 +21,7 @@ ColorMap fitted_color_map(std::span<const float> values) {
     if (!std::isnan(values[i])) sample.push_back(values[i]);
   std::sort(sample.begin(), sample.end());
 
-  ColorMap map = *preset("cool-warm");
+  ColorMap map = *preset("turbo");
   if (sample.empty() || sample.front() == sample.back()) {
     const double value = sample.empty() ? 0 : sample.front();
     const double margin = std::max(std::abs(value) * 1e-3, 1e-6);

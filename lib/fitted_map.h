@@ -7,7 +7,7 @@
 
 namespace plume {
 
-/// A diverging colour map over the values' 1st to 99th percentile, in which a value is the more
+/// The colours of "turbo" over the values' 1st to 99th percentile, in which a value is the more
 /// opaque the rarer it is: the free stream stays clear, and what differs from it is seen. Values
 /// that are NaN are passed over; a constant field is shown in one colour, half transparent.
 ColorMap fitted_color_map(std::span<const float> values);

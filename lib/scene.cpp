@@ -4,11 +4,13 @@
 
 #include <fmt/format.h>
 
+#include "plume/lib/camera.h"
 #include "plume/lib/fitted_map.h"
 #include "plume/lib/scene_body.h"
 #include "plume/mesh/connected_parts.h"
 #include "plume/mesh/error.h"
 #include "plume/mesh/validate.h"
+#include "plume/preint/closed_form.h"
 
 namespace plume {
 namespace {
@@ -21,6 +23,33 @@ bool all_tetrahedra(const Mesh& mesh) {
   });
 }
 
+// See Scene::default_unit_distance().
+double fitted_unit_distance(const Scene& scene) {
+  constexpr int kAcross = 12;  // rays along each side, from each of three directions
+  constexpr double kWanted = 4;
+  const ClosedForm optics(to_transfer_function(scene.default_color_map(), 1));
+  std::vector<double> depths;
+  for (const char* view : {"+x", "+y", "+z"}) {
+    Camera camera = named_view(view, scene.bounds());
+    camera.parallel = true;
+    const PixelRays rays(camera, kAcross, kAcross);
+    for (int y = 0; y < kAcross; ++y)
+      for (int x = 0; x < kAcross; ++x) {
+        double depth = 0;
+        scene.trace(rays(x + 0.5, y + 0.5), [&](const Segment& s) {
+          depth += optics.optical_depth(s.s_in, s.s_out, static_cast<float>(s.t_out - s.t_in));
+          return true;
+        });
+        if (depth > 0) depths.push_back(depth);
+      }
+  }
+  const double diagonal = scene.bounds().diagonal();
+  if (depths.empty()) return diagonal > 0 ? diagonal / 10 : 1;
+  const auto fourth_fifth = depths.begin() + static_cast<std::ptrdiff_t>(depths.size() * 4 / 5);
+  std::nth_element(depths.begin(), fourth_fifth, depths.end());
+  return *fourth_fifth / kWanted;
+}
+
 }  // namespace
 
 Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_unique<Body>()) {
@@ -28,7 +57,6 @@ Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_un
   body_->field = select_field(mesh, options.field);
   const ScalarField& field = body_->field;
   body_->default_map = fitted_color_map(field.values);
-  body_->transfer_function = to_transfer_function(body_->default_map, default_unit_distance());
   if (field.not_finite > 0)
     body_->findings.push_back(
         {fmt::format("values of '{}' are NaN or infinite; they are transparent", field.name),
@@ -50,6 +78,8 @@ Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_un
     take(std::make_unique<Walkable<CellWalker>>(
         make_walkable_cells(mesh, field, body_->bounds, options.keep_cell_numbers)));
   body_->field.values = {};
+  body_->unit_distance = fitted_unit_distance(*this);
+  body_->transfer_function = to_transfer_function(body_->default_map, body_->unit_distance);
 }
 
 Scene::~Scene() = default;
@@ -62,10 +92,7 @@ const std::vector<Finding>& Scene::findings() const { return body_->findings; }
 const ColorMap& Scene::default_color_map() const { return body_->default_map; }
 const TransferFunction& Scene::transfer_function() const { return body_->transfer_function; }
 
-double Scene::default_unit_distance() const {
-  const double diagonal = body_->bounds.diagonal();
-  return diagonal > 0 ? diagonal / 10 : 1;
-}
+double Scene::default_unit_distance() const { return body_->unit_distance; }
 
 void Scene::set_transfer_function(TransferFunction transfer_function) {
   if (const auto problem = transfer_function.problem())

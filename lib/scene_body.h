@@ -30,6 +30,7 @@ struct Scene::Body {
   ScalarField field;
   std::vector<Finding> findings;
   ColorMap default_map;
+  double unit_distance = 1;
   TransferFunction transfer_function;
 };
 

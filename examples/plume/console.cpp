@@ -9,6 +9,8 @@
 #include <fstream>
 #include <iostream>
 
+#include <fmt/format.h>
+
 #include "plume/mesh/error.h"
 
 namespace plume::command {
@@ -24,19 +26,22 @@ std::function<bool(double)> Console::progress_bar() const {
     const int filled = static_cast<int>(std::floor(share * kWidth));
     if (filled != shown) {
       shown = filled;
-      std::cerr << "\r[" << std::string(static_cast<std::size_t>(filled), '=')
-                << std::string(static_cast<std::size_t>(kWidth - filled), ' ') << "] "
-                << static_cast<int>(share * 100) << "%" << (share >= 1 ? "\n" : "") << std::flush;
+      std::cerr << fmt::format("\r[{:=<{}}{:<{}}] {}%{}", "", filled, "", kWidth - filled,
+                               static_cast<int>(share * 100), share >= 1 ? "\n" : "")
+                << std::flush;
     }
     return true;
   };
 }
 
 std::string with_separators(std::size_t number) {
-  std::string digits = std::to_string(number);
-  for (auto place = static_cast<std::ptrdiff_t>(digits.size()) - 3; place > 0; place -= 3)
-    digits.insert(static_cast<std::size_t>(place), ",");
-  return digits;
+  const std::string digits = std::to_string(number);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ',';
+    text += digits[i];
+  }
+  return text;
 }
 
 std::size_t peak_memory_bytes() {

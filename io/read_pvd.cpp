@@ -1,0 +1,79 @@
+// ParaView's collection of files. Its reader is ParaView's own, and not in VTK.
+#include <vtkDataObject.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkXMLDataElement.h>
+#include <vtkXMLUtilities.h>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "plume/io/read_file.h"
+#include "plume/io/read_formats.h"
+#include "plume/io/vtk_errors.h"
+#include "plume/io/vtk_run_reader.h"
+#include "plume/mesh/error.h"
+
+namespace plume {
+namespace {
+
+constexpr std::array<std::string_view, 9> part_extensions{
+    ".vtu", ".pvtu", ".vts", ".pvts", ".vti", ".pvti", ".vtr", ".pvtr", ".vtm"};
+
+// Names of the parts' files, by time.
+using Collection = std::map<double, std::vector<std::string>>;
+
+Collection read_collection(const std::filesystem::path& file, const Notice& notice) {
+  check_vtk_xml_end(file);
+  vtkSmartPointer<vtkXMLDataElement> root;
+  with_vtk_errors(file, notice, check_the_file, [&] {
+    root.TakeReference(vtkXMLUtilities::ReadElementFromFile(file.string().c_str()));
+  });
+  vtkXMLDataElement* const list = root ? root->FindNestedElementWithName("Collection") : nullptr;
+  if (!list)
+    throw Error(file.string() +
+                ": no <Collection> of files in it; check that it is ParaView's .pvd");
+  Collection collection;
+  for (int i = 0; i < list->GetNumberOfNestedElements(); ++i) {
+    vtkXMLDataElement* const element = list->GetNestedElement(i);
+    const char* const name = element->GetAttribute("file");
+    if (!name) throw Error(file.string() + ": a DataSet without a file; name one");
+    double time = 0;
+    element->GetScalarAttribute("timestep", time);
+    collection[time].emplace_back(name);
+  }
+  if (collection.empty()) throw Error(file.string() + ": lists no files; add one");
+  return collection;
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkDataObject> read_pvd(const std::filesystem::path& file,
+                                        const ReadOptions& options, const Notice& notice) {
+  const Collection collection = read_collection(file, notice);
+  const int step = choose_time_step(static_cast<int>(collection.size()), file, options);
+  const auto& parts = std::next(collection.begin(), step)->second;
+  const auto blocks = vtkSmartPointer<vtkMultiBlockDataSet>::New();
+  unsigned next = 0;
+  for (const std::string& name : parts) {
+    const auto part = file.parent_path() / name;
+    if (lower_extension(part) == ".vtp") {
+      if (notice) notice(part.string() + ": skipped, a surface");
+      continue;
+    }
+    if (std::find(part_extensions.begin(), part_extensions.end(), lower_extension(part)) ==
+        part_extensions.end())
+      throw Error(part.string() + ": no format that a .pvd such as " + file.string() +
+                  " can list; it holds VTK's XML files");
+    check_readable(part);
+    // The parts are of the chosen time already.
+    blocks->SetBlock(next++, read_vtk_file(part, {}, notice));
+  }
+  return blocks;
+}
+
+}  // namespace plume

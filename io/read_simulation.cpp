@@ -1,0 +1,107 @@
+// The formats of simulation codes and of their preprocessors.
+#include <vtkCGNSReader.h>
+#include <vtkDataObject.h>
+#include <vtkExodusIIReader.h>
+#include <vtkFLUENTReader.h>
+#include <vtkGenericEnSightReader.h>
+#include <vtkMultiBlockDataSet.h>
+#include <vtkOpenFOAMReader.h>
+
+#include <string>
+
+#include "plume/io/read_ensight_case.h"
+#include "plume/io/read_file.h"
+#include "plume/io/read_formats.h"
+#include "plume/io/read_netcdf_length.h"
+#include "plume/io/vtk_run_reader.h"
+#include "plume/mesh/error.h"
+
+namespace plume {
+
+vtkSmartPointer<vtkDataObject> read_exodus(const std::filesystem::path& file,
+                                           const ReadOptions& options, const Notice& notice) {
+  const std::string start = first_bytes(file, 8);
+  if (!looks_like_netcdf(start) && !looks_like_hdf5(start))
+    throw Error(file.string() +
+                ": no Exodus file, which starts as netCDF or HDF5 files do; check "
+                "that it is what its name says");
+  check_netcdf_or_hdf5_length(file);
+  const auto reader = vtkSmartPointer<vtkExodusIIReader>::New();
+  reader->SetFileName(file.string().c_str());
+  reader->GenerateObjectIdCellArrayOff();
+  reader->GenerateGlobalElementIdArrayOff();
+  reader->GenerateGlobalNodeIdArrayOff();
+  return run_reader(*reader, file, options, notice, [&] {
+    // Results are off by default.
+    reader->SetAllArrayStatus(vtkExodusIIReader::NODAL, 1);
+    reader->SetAllArrayStatus(vtkExodusIIReader::ELEM_BLOCK, 1);
+  });
+}
+
+vtkSmartPointer<vtkDataObject> read_ensight(const std::filesystem::path& file,
+                                            const ReadOptions& options, const Notice& notice) {
+  check_ensight_case(file);
+  const auto reader = vtkSmartPointer<vtkGenericEnSightReader>::New();
+  reader->SetCaseFileName(file.string().c_str());
+  return run_reader(*reader, file, options, notice);
+}
+
+vtkSmartPointer<vtkDataObject> read_openfoam(const std::filesystem::path& file,
+                                             const ReadOptions& options, const Notice& notice) {
+  const auto directory = std::filesystem::absolute(file).parent_path();
+  if (!std::filesystem::exists(directory / "system" / "controlDict"))
+    throw Error(file.string() + ": " + directory.string() +
+                " has no system/controlDict; put the .foam file into the case's directory");
+  if (!std::filesystem::exists(directory / "constant" / "polyMesh") &&
+      std::filesystem::exists(directory / "processor0"))
+    throw Error(file.string() +
+                ": a decomposed OpenFOAM case; put it together with reconstructPar first");
+  const auto reader = vtkSmartPointer<vtkOpenFOAMReader>::New();
+  reader->SetFileName(file.string().c_str());
+  reader->DecomposePolyhedraOff();
+  // Point data made of cell data would blur what the solver computed.
+  reader->CreateCellToPointOff();
+  return run_reader(*reader, file, options, notice, [&] {
+    for (int i = 0; i < reader->GetNumberOfPatchArrays(); ++i) {
+      const std::string name = reader->GetPatchArrayName(i);
+      reader->SetPatchArrayStatus(name.c_str(), name.ends_with("internalMesh"));
+    }
+  });
+}
+
+vtkSmartPointer<vtkDataObject> read_cgns(const std::filesystem::path& file,
+                                         const ReadOptions& options, const Notice& notice) {
+  const std::string start = first_bytes(file, 64);
+  if (!looks_like_hdf5(start) && start.find("ADF Database") == std::string::npos)
+    throw Error(file.string() +
+                ": no CGNS file, which starts as HDF5 or ADF files do; check that "
+                "it is what its name says");
+  check_netcdf_or_hdf5_length(file);
+  const auto reader = vtkSmartPointer<vtkCGNSReader>::New();
+  reader->SetFileName(file.string().c_str());
+  return run_reader(*reader, file, options, notice, [&] {
+    reader->EnableAllBases();
+    reader->EnableAllFamilies();
+    reader->EnableAllPointArrays();
+    reader->EnableAllCellArrays();
+  });
+}
+
+vtkSmartPointer<vtkDataObject> read_fluent(const std::filesystem::path& file,
+                                           const ReadOptions& options, const Notice& notice) {
+  const std::string start = first_bytes(file, 64);
+  if (start.starts_with("$MeshFormat"))
+    throw Error(file.string() + ": a Gmsh mesh, not a Fluent one; convert it to .vtk with gmsh");
+  if (start.find('(') == std::string::npos)
+    throw Error(file.string() +
+                ": no Fluent case or mesh, which starts with '('; check that it is what its name "
+                "says");
+  const auto reader = vtkSmartPointer<vtkFLUENTReader>::New();
+  reader->SetFileName(file.string().c_str());
+  // Without a .dat file of the same name the mesh has no fields, which VTK calls an error.
+  return run_reader(
+      *reader, file, options, notice, [&] { reader->EnableAllCellArrays(); },
+      "Could not open data file");
+}
+
+}  // namespace plume

@@ -1,0 +1,23 @@
+/// What VTK says while it reads or writes, caught instead of printed.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "plume/io/read_mesh.h"
+
+namespace plume {
+
+/// Calls `work`, which calls VTK. The first error that VTK reports in this thread, through whatever
+/// object, becomes an Error "file: message; remedy"; warnings go to `notice`; nothing is printed.
+/// VTK's output window belongs to the process, so calls take turns. Errors with the text `harmless`
+/// in them count as warnings.
+void with_vtk_errors(const std::filesystem::path& file, const Notice& notice,
+                     const std::string& remedy, const std::function<void()>& work,
+                     const std::string& harmless = {});
+
+inline constexpr const char* check_the_file =
+    "check that the file is whole and of the format that its name says";
+
+}  // namespace plume
