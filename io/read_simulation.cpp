@@ -8,9 +8,11 @@
 #include <vtkOpenFOAMReader.h>
 
 #include <string>
+#include <vector>
 
 #include "plume/io/read_ensight_case.h"
 #include "plume/io/read_file.h"
+#include "plume/io/read_fluent_case.h"
 #include "plume/io/read_formats.h"
 #include "plume/io/read_netcdf_length.h"
 #include "plume/io/vtk_run_reader.h"
@@ -96,12 +98,20 @@ vtkSmartPointer<vtkDataObject> read_fluent(const std::filesystem::path& file,
     throw Error(file.string() +
                 ": no Fluent case or mesh, which starts with '('; check that it is what its name "
                 "says");
+  check_fluent_case(file);
+  const auto data_file = std::filesystem::path(file).replace_extension(".dat");
+  std::vector<std::string> expected;
+  if (!std::filesystem::exists(data_file)) {
+    // VTK calls that an error.
+    expected = {"Could not open data file", "Unable to open dat file"};
+    if (notice)
+      notice(file.string() + ": no " + data_file.filename().string() +
+             " beside it, so that the mesh has no fields");
+  }
   const auto reader = vtkSmartPointer<vtkFLUENTReader>::New();
   reader->SetFileName(file.string().c_str());
-  // Without a .dat file of the same name the mesh has no fields, which VTK calls an error.
   return run_reader(
-      *reader, file, options, notice, [&] { reader->EnableAllCellArrays(); },
-      "Could not open data file");
+      *reader, file, options, notice, [&] { reader->EnableAllCellArrays(); }, expected);
 }
 
 }  // namespace plume

@@ -25,7 +25,7 @@ int choose_time_step(int count, const std::filesystem::path& file, const ReadOpt
 vtkSmartPointer<vtkDataObject> run_reader(vtkAlgorithm& reader, const std::filesystem::path& file,
                                           const ReadOptions& options, const Notice& notice,
                                           const std::function<void()>& select,
-                                          const std::string& harmless) {
+                                          const std::vector<std::string>& expected) {
   vtkSmartPointer<vtkDataObject> output;
   const auto update = [&] {
     using Pipeline = vtkStreamingDemandDrivenPipeline;
@@ -42,7 +42,7 @@ vtkSmartPointer<vtkDataObject> run_reader(vtkAlgorithm& reader, const std::files
       reader.Update();
     output = reader.GetOutputDataObject(0);
   };
-  with_vtk_errors(file, notice, check_the_file, update, harmless);
+  with_vtk_errors(file, notice, check_the_file, update, expected);
   if (!output) throw Error(file.string() + ": VTK reads nothing from it; check the file's format");
   return output;
 }

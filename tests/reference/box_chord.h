@@ -8,15 +8,17 @@
 
 namespace plume::reference {
 
-/// Length of the part of the line origin + t * direction (of length one) inside of the box.
-inline double box_chord(const std::array<double, 3>& low, const std::array<double, 3>& high,
-                        const std::array<double, 3>& origin,
-                        const std::array<double, 3>& direction) {
-  double enter = -std::numeric_limits<double>::infinity();
-  double leave = std::numeric_limits<double>::infinity();
+/// Where the line origin + t * direction enters and leaves the box; empty (first above second) where
+/// it misses.
+inline std::array<double, 2> box_span(const std::array<double, 3>& low,
+                                      const std::array<double, 3>& high,
+                                      const std::array<double, 3>& origin,
+                                      const std::array<double, 3>& direction) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double enter = -kInfinity, leave = kInfinity;
   for (std::size_t a = 0; a < 3; ++a) {
     if (direction[a] == 0) {
-      if (origin[a] < low[a] || origin[a] > high[a]) return 0;
+      if (origin[a] < low[a] || origin[a] > high[a]) return {kInfinity, -kInfinity};
       continue;
     }
     const double t0 = (low[a] - origin[a]) / direction[a];
@@ -24,7 +26,15 @@ inline double box_chord(const std::array<double, 3>& low, const std::array<doubl
     enter = std::max(enter, std::min(t0, t1));
     leave = std::min(leave, std::max(t0, t1));
   }
-  return std::max(0.0, leave - enter);
+  return {enter, leave};
+}
+
+/// Length of that part; `direction` has length one.
+inline double box_chord(const std::array<double, 3>& low, const std::array<double, 3>& high,
+                        const std::array<double, 3>& origin,
+                        const std::array<double, 3>& direction) {
+  const auto span = box_span(low, high, origin, direction);
+  return std::max(0.0, span[1] - span[0]);
 }
 
 }  // namespace plume::reference
