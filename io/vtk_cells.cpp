@@ -52,41 +52,49 @@ int corner_type(int type) {
   }
 }
 
-const char* plural_of(int type) {
+const char* name_of(int type) {
   switch (type) {
     case VTK_EMPTY_CELL:
-      return "empty cells";
+      return "empty cell";
     case VTK_VERTEX:
     case VTK_POLY_VERTEX:
-      return "vertices";
+      return "vertex";
     case VTK_LINE:
     case VTK_POLY_LINE:
     case VTK_QUADRATIC_EDGE:
     case VTK_CUBIC_LINE:
     case VTK_LAGRANGE_CURVE:
-      return "lines";
+      return "line";
     case VTK_TRIANGLE:
     case VTK_QUADRATIC_TRIANGLE:
     case VTK_BIQUADRATIC_TRIANGLE:
     case VTK_LAGRANGE_TRIANGLE:
-      return "triangles";
+      return "triangle";
     case VTK_TRIANGLE_STRIP:
-      return "triangle strips";
+      return "triangle strip";
     case VTK_POLYGON:
     case VTK_QUADRATIC_POLYGON:
-      return "polygons";
+      return "polygon";
     case VTK_PIXEL:
     case VTK_QUAD:
     case VTK_QUADRATIC_QUAD:
     case VTK_BIQUADRATIC_QUAD:
     case VTK_QUADRATIC_LINEAR_QUAD:
     case VTK_LAGRANGE_QUADRILATERAL:
-      return "quadrilaterals";
+      return "quadrilateral";
     case VTK_CONVEX_POINT_SET:
-      return "convex point sets";
+      return "convex point set";
     default:
-      return nullptr;
+      return "cell of another type";
   }
+}
+
+std::string count_of(std::int64_t count, const std::string& name) {
+  const std::string number = std::to_string(count) + " ";
+  if (count == 1) return number + name;
+  if (name == "vertex") return number + "vertices";
+  if (name == "cell of another type") return number + "cells of another type";
+  return number + name + "s";
 }
 
 [[noreturn]] void fail(const std::filesystem::path& file, std::size_t cell,
@@ -259,14 +267,12 @@ void take_cells(vtkUnstructuredGrid& grid, const Source& source, ArrayType* offs
 }  // namespace
 
 std::string CellCensus::dropped_cells() const {
+  // Several of VTK's types have one name.
   std::map<std::string, std::int64_t> by_name;
-  for (const auto& [type, count] : dropped) {
-    const char* const name = plural_of(type);
-    by_name[name ? name : "cells of VTK type " + std::to_string(type)] += count;
-  }
+  for (const auto& [type, count] : dropped) by_name[name_of(type)] += count;
   std::string text;
   for (const auto& [name, count] : by_name)
-    text += (text.empty() ? "" : " and ") + std::to_string(count) + " " + name;
+    text += (text.empty() ? "" : ", ") + count_of(count, name);
   return text;
 }
 

@@ -22,7 +22,7 @@ struct CellCensus {
   /// Hidden or ghost cells, which explicit cells leave out.
   std::int64_t hidden = 0;
 
-  /// "12 triangles and 3 lines"; empty when none was dropped.
+  /// "3 lines, 12 triangles"; empty when none was dropped.
   std::string dropped_cells() const;
 };
 

@@ -26,16 +26,21 @@ vtkSmartPointer<vtkDataObject> run_reader(vtkAlgorithm& reader, const std::files
                                           const ReadOptions& options, const Notice& notice,
                                           const std::function<void()>& select,
                                           const std::vector<std::string>& expected) {
-  vtkSmartPointer<vtkDataObject> output;
-  const auto update = [&] {
-    using Pipeline = vtkStreamingDemandDrivenPipeline;
+  // In two steps: readers that could not make sense of a file's header crash on its data.
+  const auto update_information = [&] {
     reader.UpdateInformation();
     if (select) select();
-    vtkInformation* information = reader.GetOutputInformation(0);
-    const int steps = information && information->Has(Pipeline::TIME_STEPS())
-                          ? information->Length(Pipeline::TIME_STEPS())
-                          : 0;
-    const int step = choose_time_step(steps, file, options);
+  };
+  with_vtk_errors(file, notice, check_the_file, update_information, expected);
+
+  using Pipeline = vtkStreamingDemandDrivenPipeline;
+  vtkInformation* const information = reader.GetOutputInformation(0);
+  const bool has_time = information && information->Has(Pipeline::TIME_STEPS());
+  const int steps = has_time ? information->Length(Pipeline::TIME_STEPS()) : 0;
+  const int step = choose_time_step(steps, file, options);
+
+  vtkSmartPointer<vtkDataObject> output;
+  const auto update = [&] {
     if (steps > 0)
       reader.UpdateTimeStep(information->Get(Pipeline::TIME_STEPS())[step]);
     else

@@ -158,11 +158,11 @@ void report(const CellCensus& census, bool is_grid, const std::filesystem::path&
     notice(file.string() + ": " + census.dropped_cells() + " dropped: not volume cells");
   if (census.hidden > 0)
     notice(file.string() + ": " + std::to_string(census.hidden) +
-           (is_grid ? " cells are hidden (blanked or ghosts)"
-                    : " hidden cells dropped (blanked or ghosts)"));
+           (is_grid ? " of the cells hidden: blanked, or ghosts"
+                    : " of the cells dropped: blanked, or ghosts"));
   if (census.higher_order > 0)
     notice(file.string() + ": " + std::to_string(census.higher_order) +
-           " higher-order cells are represented by their corners");
+           " of the cells are of higher order: represented by their corners");
 }
 
 }  // namespace
@@ -177,7 +177,7 @@ Mesh mesh_from_vtk(vtkDataObject& data, const std::filesystem::path& file,
   if (blocks.empty()) {
     std::string found = census.dropped_cells();
     if (census.hidden > 0)
-      found += (found.empty() ? "" : " and ") + std::to_string(census.hidden) + " hidden cells";
+      found += (found.empty() ? "" : ", ") + std::to_string(census.hidden) + " hidden";
     throw Error(file.string() + ": no volume cells" +
                 (found.empty() ? ": it is empty" : ", only " + found) +
                 "; Plume needs tetrahedra, hexahedra, wedges, pyramids, prisms or polyhedra");

@@ -277,7 +277,8 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   // A table is built only where the picture needs what is in it: colours.
   if (settings.mode != Mode::volume) effective.integrator.kind = IntegratorKind::closed_form;
   const Integrator integrator = make_integrator(scene.transfer_function(), effective.integrator);
-  tbb::task_arena arena(settings.threads > 0 ? settings.threads : tbb::task_arena::automatic);
+  const int available = tbb::this_task_arena::max_concurrency();
+  tbb::task_arena arena(settings.threads > 0 ? std::min(settings.threads, available) : available);
   std::visit(
       [&](const auto& walkable, const auto& chosen) {
         arena.execute([&] {

@@ -36,7 +36,7 @@ struct RenderSettings {
   /// A ray ends once it is seen through by no more than this share: a colour channel is off by at
   /// most this times the transfer function's largest value in it. In [0, 1).
   double early_termination = 1e-4;
-  /// Threads to use, 0 for all there are. The picture is the same for any number.
+  /// Threads to use, at most those there are; 0 for all. The picture is the same for any number.
   int threads = 0;
   /// Further channels: "depth", "optical_depth", "cell_id", "cell_count". The last two but one and
   /// the last need the whole ray, so early termination is off where one of them is asked for.

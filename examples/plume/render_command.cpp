@@ -97,8 +97,8 @@ void choose_transfer_function(Scene& scene, const RenderArguments& args, const C
   scene.set_transfer_function(to_transfer_function(map, unit, args.opacity_scale));
 }
 
-Camera choose_camera(const Scene& scene, const RenderArguments& args, double aspect_ratio) {
-  Camera camera = named_view(args.view, scene.bounds(), aspect_ratio);
+Camera choose_camera(const Bounds& bounds, const RenderArguments& args, double aspect_ratio) {
+  Camera camera = named_view(args.view, bounds, aspect_ratio);
   if (!args.camera.empty()) {
     const auto n = parse_numbers("--camera", args.camera, {6, 9});
     camera.position = {n[0], n[1], n[2]};
@@ -139,6 +139,9 @@ void run(const RenderArguments& args) {
   choose_background(args.background, file_options);
   check_image_path(args.output);
   if (!args.stats.empty()) check_writable(args.stats);
+  const double aspect_ratio = static_cast<double>(size.width) / size.height;
+  // What can be wrong with a camera shows with any bounds: said now, not after a long read.
+  PixelRays(choose_camera({{0, 0, 0}, {1, 1, 1}}, args, aspect_ratio), size.width, size.height);
 
   Stopwatch watch;
   ReadOptions read_options;
@@ -182,7 +185,7 @@ void run(const RenderArguments& args) {
   settings.threads = args.threads;
   settings.channels = args.channels;
   const Camera camera =
-      choose_camera(scene, args, static_cast<double>(size.width) / size.height);
+      choose_camera(scene.bounds(), args, aspect_ratio);
   const RenderResult result = render(scene, camera, settings, console.progress_bar());
   const double ms_render = watch.lap();
   const RenderStatistics& statistics = result.statistics;

@@ -222,8 +222,8 @@ TEST_F(VtkFile, DropsWhatIsNoVolumeAndKeepsFieldsInStep) {
   EXPECT_EQ(values(result.mesh.cells.connectivity),
             (std::vector<double>{0, 1, 2, 3, 0, 1, 2, 3, 4, 5, 6, 7}));
   EXPECT_EQ(values(field(result.mesh, "number")->values), (std::vector<double>{0, 2, 4}));
-  EXPECT_TRUE(result.was_told("1 lines and 1 triangles dropped: not volume cells"));
-  EXPECT_TRUE(result.was_told("1 higher-order cells are represented by their corners"));
+  EXPECT_TRUE(result.was_told("1 line, 1 triangle dropped: not volume cells"));
+  EXPECT_TRUE(result.was_told("1 of the cells are of higher order"));
   EXPECT_EQ(result.notices.size(), 2u);
 }
 
@@ -242,7 +242,7 @@ TEST_F(VtkFile, DropsGhostCellsAndCellsOfHiddenPoints) {
   grid->GetPointData()->AddArray(hidden_points);
   const Read result = read(written<vtkXMLUnstructuredGridWriter>(grid, path("ghosts.vtu")));
   EXPECT_EQ(values(field(result.mesh, "number")->values), std::vector<double>{0});
-  EXPECT_TRUE(result.was_told("2 hidden cells dropped"));
+  EXPECT_TRUE(result.was_told("2 of the cells dropped: blanked"));
   EXPECT_EQ(result.mesh.fields.size(), 1u);
 }
 
@@ -251,7 +251,7 @@ TEST_F(VtkFile, ABlankedCellOfAGridIsHidden) {
   grid->BlankCell(4);
   const Read result = read(written<vtkXMLStructuredGridWriter>(grid, path("blank.vts")));
   EXPECT_EQ(values(result.mesh.hidden_cells), (std::vector<double>{0, 0, 0, 0, 1, 0}));
-  EXPECT_TRUE(result.was_told("1 cells are hidden"));
+  EXPECT_TRUE(result.was_told("1 of the cells hidden"));
 }
 
 TEST_F(VtkFile, ABlankedPointHidesItsCells) {

@@ -1,0 +1,158 @@
+#!/usr/bin/env bash
+# The command as a user meets it: exit codes, one-line errors, files whole or not there.
+#
+#   command_test.sh PLUME
+#
+# Each check says what it expects; the last line counts them.
+set -uo pipefail
+plume=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+passed=0 failed=0
+
+ok() { # description, command...
+  local what=$1
+  shift
+  if "$@" >out.txt 2>err.txt; then
+    passed=$((passed + 1))
+  else
+    failed=$((failed + 1))
+    echo "FAILED: $what (exit $?): $*"
+    cat err.txt
+  fi
+}
+
+# The command must fail with that exit code, print exactly one line on standard error that contains
+# each of the words, and leave no file behind.
+refused() { # description, exit code, words separated by |, command...
+  local what=$1 code=$2 words=$3 before after status word
+  shift 3
+  before=$(ls -A)
+  "$@" >out.txt 2>err.txt
+  status=$?
+  after=$(ls -A)
+  local problem=""
+  [ $status -eq "$code" ] || problem="exit $status instead of $code"
+  [ "$(wc -l <err.txt)" -eq 1 ] || problem+=" not one line"
+  while read -r word; do
+    grep -qF -- "$word" err.txt || problem+=" no '$word'"
+  done < <(tr '|' '\n' <<<"$words")
+  [ "$before" = "$after" ] || problem+=" left behind: $(comm -13 <(echo "$before") <(echo "$after") | tr '\n' ' ')"
+  if [ -z "$problem" ]; then
+    passed=$((passed + 1))
+  else
+    failed=$((failed + 1))
+    echo "FAILED: $what: $problem: $*"
+    cat err.txt
+  fi
+}
+
+json() { # a python expression over the parsed file `j`
+  python3 -c "import json,sys; j=json.load(open('$1')); sys.exit(0 if ($2) else 1)"
+}
+
+touch out.txt err.txt
+ok "a mesh is made" "$plume" generate box-tetrahedra --size 6 -o box.vtu --quiet
+ok "a grid is made" "$plume" generate blunt-body --size 12 -o body.vts --quiet
+ok "a mixed mesh is made" "$plume" generate box-mixed --size 4 -o mixed.vtu --quiet
+ok "a picture is made" "$plume" render box.vtu -o a.png --size 80x60 --stats a.json --quiet
+ok "quiet is quiet" test ! -s err.txt
+ok "the picture is a PNG" grep -q PNG a.png
+ok "the statistics hold what they should" json a.json \
+  "j['rays']==4800 and 0<j['rays_hit']<=4800 and j['lost_rays']==0 and j['cells_visited']>0 and set(j['ms'])=={'read','build','render','write'} and j['peak_memory_bytes']>1e6 and 32<j['bytes_per_cell']<60 and j['field']=='radius' and j['plan']"
+for mode in volume mip integral depth; do
+  ok "mode $mode" "$plume" render body.vts --mode $mode -o $mode.png --size 40x30 --quiet
+done
+for integrator in closed-form table midpoint; do
+  ok "integrator $integrator" "$plume" render body.vts --integrator $integrator -o i.png --size 40x30 --quiet
+done
+ok "an EXR with channels" "$plume" render mixed.vtu -o a.exr --size 40x30 --quiet \
+  --channels depth,optical_depth,cell_id,cell_count
+ok "a view that begins with a minus" "$plume" render box.vtu --view -x -o v.png --size 20x20 --quiet
+ok "a component" "$plume" render body.vts --field velocity:0 -o f.png --size 20x20 --stats f.json --quiet
+ok "the component is named" json f.json "j['field']=='velocity:0'"
+ok "a magnitude" "$plume" render body.vts --field velocity:magnitude -o f.png --size 20x20 --stats f.json --quiet
+ok "the magnitude is named" json f.json "j['field']=='velocity:magnitude'"
+ok "cell data" "$plume" render box.vtu --field cell_radius -o f.png --size 20x20 --stats f.json --quiet
+ok "the association is named" json f.json "j['field_association']=='cell'"
+ok "a camera" "$plume" render box.vtu --camera 0.5,0.5,5,0.5,0.5,0.5,0,1,0 -o c.png --size 20x20 --quiet
+ok "a camera inside" "$plume" render box.vtu --camera 0.5,0.5,0.5,1,0.6,0.7 --view-angle 80 -o c.png \
+  --size 20x20 --stats c.json --quiet
+ok "all rays of a camera inside hit" json c.json "j['rays_hit']==400 and j['lost_rays']==0"
+ok "a preset" "$plume" render box.vtu --tf viridis -o p.png --size 20x20 --quiet
+ok "info" "$plume" info mixed.vtu
+ok "info as JSON" sh -c "'$plume' info mixed.vtu --json > info.json"
+ok "info holds what it should" json info.json \
+  "len(j['cells_by_type'])==4 and sum(j['cells_by_type'].values())==j['cells'] and j['components']==1 and j['problems']==[] and j['bounds']['high']==[1,1,1] and j['boundary_faces']>0 and j['memory_bytes']>0 and j['fields'][0]['range'][0]==0"
+
+for threads in 1 2 3; do
+  "$plume" render box.vtu -o t$threads.png --bits 16 --size 70x50 --threads $threads --quiet
+done
+ok "the same picture for any number of threads" cmp t1.png t2.png
+ok "and for more of them" cmp t1.png t3.png
+
+refused "no arguments" 2 "subcommand" "$plume"
+refused "an unknown option" 2 "--colour" "$plume" render box.vtu --colour red
+refused "an unknown mode" 2 "mode" "$plume" render box.vtu --mode xray
+refused "a missing file" 1 "gone.vtu" "$plume" render gone.vtu -o x.png
+refused "an unknown field" 1 "box.vtu|pressure|linear|radius|waves" "$plume" render box.vtu --field pressure -o x.png
+refused "an unknown component" 1 "velocity|7|0 to 2" "$plume" render body.vts --field velocity:7 -o x.png
+refused "a size of zero" 1 "0x5" "$plume" render box.vtu --size 0x5 -o x.png
+refused "a size that is none" 1 "big" "$plume" render box.vtu --size big -o x.png
+refused "an unknown kind of picture" 1 "x.gif" "$plume" render box.vtu -o x.gif
+refused "a folder that is not there" 1 "nowhere" "$plume" render box.vtu -o nowhere/x.png
+refused "a place nobody can write to" 1 "/proc/x.png" "$plume" render box.vtu -o /proc/x.png
+refused "statistics that cannot be written" 1 "/proc/x.json" "$plume" render box.vtu -o x.png --stats /proc/x.json
+refused "the output is checked before the mesh is read" 1 "nowhere" "$plume" render gone.vtu -o nowhere/x.png
+refused "an unknown view" 1 "+q|iso" "$plume" render box.vtu --view +q -o x.png
+refused "a camera with two numbers" 1 "--camera|1,2" "$plume" render box.vtu --camera 1,2 -o x.png
+refused "a camera at its focal point" 1 "focal point" "$plume" render box.vtu --camera 1,1,1,1,1,1 -o x.png
+refused "an unknown transfer function" 1 "mauve|viridis" "$plume" render box.vtu --tf mauve -o x.png
+refused "an unknown mesh to generate" 1 "torus|box-tetrahedra" "$plume" generate torus -o x.vtu
+refused "an unknown kind of mesh file" 1 "x.abc" "$plume" generate box-tetrahedra -o x.abc
+
+printf '[{"ColorSpace":"RGB","RGBPoints":[0,0,0,1,-1,1,0,0],"Points":[0,0,0.5,0,1,1,0.5,0]}]' >unsorted.json
+refused "unsorted colours" 1 "unsorted.json" "$plume" render box.vtu --tf unsorted.json -o x.png
+printf '[{"ColorSpace":"RGB","RGBPoints":[0,0,0,1,1,1,0,0],"Points":[0,-0.5,0.5,0,1,1,0.5,0]}]' >negative.json
+refused "negative opacity" 1 "negative.json|-0.5" "$plume" render box.vtu --tf negative.json -o x.png
+printf '[{"Name":"mine","ColorSpace":"RGB","RGBPoints":[0,0,0,1,6,1,0,0],"Points":[0,0,0.5,0,6,1,0.5,0]}]' >good.json
+ok "ParaView's JSON" "$plume" render box.vtu --tf good.json -o x.png --size 20x20 --quiet
+rm -f x.png
+
+head -c 700 box.vtu >short.vtu
+refused "a truncated file" 1 "short.vtu" "$plume" render short.vtu -o x.png
+printf 'nonsense' >nonsense.vtu
+refused "a file of something else" 1 "nonsense.vtu" "$plume" render nonsense.vtu -o x.png
+: >empty.vtk
+refused "an empty file" 1 "empty.vtk" "$plume" render empty.vtk -o x.png
+
+# Written in binary, for VTK's readers of text know no nan.
+legacy() { # name, points, cells, cell type, scalars
+  python3 - "$@" <<'PYTHON'
+import struct, sys
+name, points, cells, kind, scalars = sys.argv[1:]
+doubles = lambda text: b''.join(struct.pack('>d', float(x)) for x in text.split())
+ints = lambda text: b''.join(struct.pack('>i', int(x)) for x in text.split())
+with open(name, 'wb') as f:
+    f.write(b'# vtk DataFile Version 3.0\nt\nBINARY\nDATASET UNSTRUCTURED_GRID\nPOINTS 4 double\n')
+    f.write(doubles(points) + b'\nCELLS 1 %d\n' % len(cells.split()) + ints(cells))
+    f.write(b'\nCELL_TYPES 1\n' + ints(kind))
+    f.write(b'\nPOINT_DATA 4\nSCALARS s double\nLOOKUP_TABLE default\n' + doubles(scalars) + b'\n')
+PYTHON
+}
+points="0 0 0 1 0 0 0 1 0 0 0 1"
+legacy nanpoint.vtk "0 0 0 1 0 0 0 nan 0 0 0 1" "4 0 1 2 3" 10 "1 2 3 4"
+refused "a point that is not finite" 1 "nanpoint.vtk|point 2|nan" "$plume" render nanpoint.vtk -o x.png
+legacy badid.vtk "$points" "4 0 1 2 9" 10 "1 2 3 4"
+refused "an id out of range" 1 "badid.vtk|cell 0|point 9" "$plume" render badid.vtk -o x.png
+legacy surface.vtk "$points" "3 0 1 2" 5 "1 2 3 4"
+refused "no volume cells" 1 "surface.vtk|volume" "$plume" render surface.vtk -o x.png
+legacy nanvalue.vtk "$points" "4 0 1 2 3" 10 "1 2 3 nan"
+ok "a value that is not a number" "$plume" render nanvalue.vtk -o n.png --size 20x20 --stats n.json
+cp err.txt said.txt
+ok "it is said" grep -q "NaN" said.txt
+ok "and counted" json n.json "j['values_not_finite']==1 and j['lost_rays']==0"
+
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]

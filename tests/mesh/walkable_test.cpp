@@ -1,0 +1,264 @@
+// From what a user has to what a walker needs.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "plume/datasets/generate.h"
+#include "plume/mesh/closed_cell.h"
+#include "plume/mesh/connected_parts.h"
+#include "plume/mesh/error.h"
+#include "plume/mesh/space_curve.h"
+#include "plume/mesh/validate.h"
+#include "test_meshes.h"
+
+namespace plume::test {
+namespace {
+
+WalkableTets tets_of(const Mesh& mesh) {
+  return make_walkable_tets(mesh, select_field(mesh), check_structure(mesh), true);
+}
+WalkableCells cells_of(const Mesh& mesh) {
+  return make_walkable_cells(mesh, select_field(mesh), check_structure(mesh), true);
+}
+
+TEST(WalkableTets, TakeThirtyTwoBytesACellAndSixteenAPoint) {
+  EXPECT_EQ(sizeof(WalkableTets::Cell), 32u);
+  EXPECT_EQ(sizeof(WalkablePoint), 16u);
+  const Mesh mesh = generate("box-tetrahedra", {4, 0.2, 1});
+  const WalkableTets tets =
+      make_walkable_tets(mesh, select_field(mesh), check_structure(mesh), false);
+  EXPECT_EQ(tets.bytes(), 32 * mesh.cell_count() + 16 * mesh.point_count() +
+                              sizeof(BoundaryFace) * tets.boundary.size());
+}
+
+TEST(WalkableTets, NeighborsShareTheirFace) {
+  const Mesh mesh = generate("box-tetrahedra", {6, 0.2, 1});
+  const WalkableTets tets = tets_of(mesh);
+  ASSERT_EQ(tets.cells.size(), mesh.cell_count());
+  std::size_t boundary = 0;
+  for (std::uint32_t c = 0; c < tets.cells.size(); ++c)
+    for (std::size_t f = 0; f < 4; ++f) {
+      const std::uint32_t n = tets.cells[c].neighbors[f];
+      if (n == kNone) {
+        ++boundary;
+        continue;
+      }
+      std::set<std::uint32_t> mine(tets.cells[c].points.begin(), tets.cells[c].points.end());
+      mine.erase(tets.cells[c].points[f]);
+      for (const std::uint32_t p : tets.cells[n].points) mine.erase(p);
+      EXPECT_TRUE(mine.empty()) << "cell " << c << " face " << f;
+      const auto& back = tets.cells[n].neighbors;
+      EXPECT_NE(std::find(back.begin(), back.end(), c), back.end());
+    }
+  EXPECT_EQ(boundary, 6u * 6 * 6 * 2);
+  EXPECT_EQ(tets.boundary.size(), boundary);
+  EXPECT_EQ(connected_parts(tets), 1u);
+  EXPECT_TRUE(tets.findings.empty());
+}
+
+TEST(WalkableTets, CellsListedBackwardsAreTurnedAround) {
+  Mesh mesh = generate("box-tetrahedra", {4, 0.2, 1});
+  std::vector<std::int32_t> ids;
+  std::size_t reversed = 0;
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+    std::int32_t cell[4];
+    for (std::size_t v = 0; v < 4; ++v) cell[v] = mesh.cells.connectivity.at<std::int32_t>(4 * c + v);
+    if (c % 3 == 0) {
+      std::swap(cell[1], cell[2]);
+      ++reversed;
+    }
+    ids.insert(ids.end(), cell, cell + 4);
+  }
+  mesh.cells.connectivity = Array::own(std::move(ids));
+  const WalkableTets tets = tets_of(mesh);
+  ASSERT_EQ(tets.findings.size(), 1u);
+  EXPECT_EQ(tets.findings[0].count, reversed);
+  for (const auto& cell : tets.cells) {  // all of positive volume again
+    double e[3][3];
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t a = 0; a < 3; ++a)
+        e[i][a] = static_cast<double>(tets.points[cell.points[i + 1]].position[a]) -
+                  tets.points[cell.points[0]].position[a];
+    EXPECT_GT(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
+                  e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
+                  e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]),
+              0);
+  }
+}
+
+TEST(WalkableTets, ACellInsideOutIsNotTurned) {
+  // Point 0 is pulled through the common face: the first cell is inside out, but both still agree
+  // on who is on which side.
+  Mesh mesh = two_tetrahedra();
+  mesh.points = Array::own(
+      std::vector<double>{0.4, 0.4, 0.4, 1, 0, 0, 0, 1, 0, 0, 0, 1, 3, 3, 3});
+  const WalkableTets tets = tets_of(mesh);
+  EXPECT_TRUE(tets.findings.empty());
+}
+
+TEST(WalkableTets, AFaceOfThreeCellsIsNamed) {
+  const Mesh mesh = make_mesh(CellType::tetrahedron,
+                              {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2},
+                              {0, 1, 2, 3, 4, 1, 3, 2, 5, 1, 3, 2});
+  const WalkableTets tets = tets_of(mesh);
+  ASSERT_EQ(tets.findings.size(), 1u);
+  EXPECT_EQ(tets.findings[0].what, "faces shared by more than two cells");
+  EXPECT_EQ(tets.findings[0].count, 1u);
+}
+
+TEST(WalkableTets, ACellWithARepeatedPointIsLeftOutAndItsNeighborsJoined) {
+  // Between the two cells lies a third of no thickness: 1, 2, 3 and 3 again.
+  const Mesh mesh = make_mesh(CellType::tetrahedron,
+                              {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1},
+                              {0, 1, 2, 3, 1, 2, 3, 3, 4, 1, 3, 2});
+  const WalkableTets tets = tets_of(mesh);
+  ASSERT_EQ(tets.cells.size(), 2u);
+  EXPECT_EQ(tets.boundary.size(), 6u);
+  ASSERT_EQ(tets.findings.size(), 1u);
+  EXPECT_EQ(tets.findings[0].examples, std::vector<std::size_t>{1});
+}
+
+TEST(WalkableGrid, StoresNoConnectivity) {
+  const Mesh mesh = generate("box-hexahedra", {8, 0.2, 1});
+  const WalkableGrid grid = make_walkable_grid(mesh, select_field(mesh), check_structure(mesh));
+  EXPECT_EQ(grid.bytes(), 16 * mesh.point_count() + sizeof(BoundaryFace) * 6 * 8 * 8);
+  EXPECT_EQ(grid.neighbor(0, 0), kNone);
+  EXPECT_EQ(grid.neighbor(0, 1), 1u);
+  EXPECT_EQ(grid.neighbor(0, 3), 8u);
+  EXPECT_EQ(grid.neighbor(0, 5), 64u);
+  EXPECT_EQ(grid.neighbor(511, 1), kNone);
+  EXPECT_FALSE(grid.left_handed);
+}
+
+TEST(WalkableGrid, HiddenCellsAreBoundary) {
+  Mesh mesh = generate("box-hexahedra", {4, 0, 1});
+  std::vector<std::uint8_t> hidden(64, 0);
+  hidden[21] = 1;  // (1, 1, 1): inside
+  mesh.hidden_cells = Array::own(std::move(hidden));
+  const WalkableGrid grid = make_walkable_grid(mesh, select_field(mesh), check_structure(mesh));
+  EXPECT_EQ(grid.boundary.size(), 6u * 16 + 6);
+  EXPECT_EQ(grid.neighbor(20, 1), kNone);
+  EXPECT_EQ(connected_parts(grid), 1u);
+}
+
+TEST(WalkableCells, ACollapsedHexahedronIsAWedge) {
+  // Points 4 and 7 are 0 and 3: the face between them is gone, two others are triangles.
+  Mesh mesh = make_mesh(CellType::hexahedron, cube_points(), {0, 1, 2, 3, 0, 5, 6, 3});
+  const WalkableCells cells = cells_of(mesh);
+  EXPECT_EQ(cells.cell_count(), 1u);
+  std::multiset<std::size_t> sizes;
+  for (std::uint32_t f = 0; f < cells.face_sides.size(); ++f) sizes.insert(cells.loop(f).size());
+  EXPECT_EQ(sizes, (std::multiset<std::size_t>{3, 3, 4, 4, 4}));
+}
+
+TEST(WalkableCells, EachInteriorFaceIsStoredOnce) {
+  const Mesh mesh = generate("box-mixed", {4, 0.2, 1});
+  const WalkableCells cells = cells_of(mesh);
+  std::size_t interior = 0;
+  for (const auto& sides : cells.face_sides) interior += sides.neighbor != kNone;
+  EXPECT_EQ(cells.cell_faces.size(), 2 * interior + cells.boundary.size());
+  EXPECT_EQ(connected_parts(cells), 1u);
+  EXPECT_TRUE(cells.findings.empty());
+}
+
+// The unit cube as a polyhedron, two of its faces listed the wrong way round.
+const std::vector<std::int32_t> kCubeFaces{6, 4, 0, 4, 7, 3, 4, 1, 2, 6, 5, 4, 4, 5, 1, 0,
+                                           4, 3, 7, 6, 2, 4, 0, 3, 2, 1, 4, 7, 6, 5, 4};
+
+TEST(WalkableCells, APolyhedronsFacesAreMadeToAgree) {
+  const Mesh mesh = one_polyhedron(cube_points(), kCubeFaces);
+  const WalkableCells cells = cells_of(mesh);
+  EXPECT_EQ(cells.cell_count(), 1u);
+  EXPECT_TRUE(cells.findings.empty());
+  CellFaces faces;
+  for (std::uint32_t f = 0; f < 6; ++f) {
+    faces.sizes.push_back(4);
+    for (const std::uint32_t id : cells.loop(f)) faces.ids.push_back(id);
+  }
+  EXPECT_TRUE(is_closed(faces));
+}
+
+TEST(WalkableCells, APolyhedronWithAGapIsNamedAndLeftOut) {
+  std::vector<std::int32_t> faces = kCubeFaces;
+  faces[0] = 5;
+  faces.resize(faces.size() - 5);
+  const Mesh mesh = one_polyhedron(cube_points(), faces);
+  const WalkableCells cells = cells_of(mesh);
+  EXPECT_EQ(cells.cell_count(), 0u);
+  ASSERT_EQ(cells.findings.size(), 1u);
+  EXPECT_EQ(describe(cells.findings[0]), "1 cells whose faces leave a gap, left out: 0");
+}
+
+TEST(HilbertKey, IsAPathThroughNeighbors) {
+  // Among the centres of an 8 x 8 x 8 lattice, those next in order are next in space.
+  std::vector<std::array<float, 3>> places;
+  for (int k = 0; k < 8; ++k)
+    for (int j = 0; j < 8; ++j)
+      for (int i = 0; i < 8; ++i)
+        places.push_back({(static_cast<float>(i) + 0.5f) / 4 - 1, (static_cast<float>(j) + 0.5f) / 4 - 1,
+                          (static_cast<float>(k) + 0.5f) / 4 - 1});
+  const auto order = hilbert_order(places.size(), [&](std::size_t i) { return places[i]; });
+  for (std::size_t i = 1; i < order.size(); ++i) {
+    float steps = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+      steps += std::abs(places[order[i]][a] - places[order[i - 1]][a]) * 4;
+    EXPECT_EQ(steps, 1) << i;
+  }
+}
+
+TEST(LocalFrame, ScalesByPowersOfTwoAndKeepsDistantMeshes) {
+  const LocalFrame frame = LocalFrame::of({{1e7, 1e7, 1e7}, {1e7 + 3, 1e7 + 1, 1e7 + 2}});
+  EXPECT_EQ(frame.scale, 0.5);
+  const WalkablePoint p = frame.local(1e7 + 3, 1e7, 1e7 + 1, 7);
+  EXPECT_EQ(p.position[0], 0.75f);
+  EXPECT_EQ(p.position[1], -0.25f);
+  EXPECT_EQ(p.position[2], 0.0f);
+  EXPECT_EQ(p.scalar, 7.0f);
+}
+
+TEST(SelectField, TakesComponentsMagnitudesAndDefaults) {
+  Mesh mesh = two_tetrahedra();
+  mesh.fields.push_back({"vel", Association::point, 3,
+                         Array::own(std::vector<float>{3, 4, 0, 0, 0, 1, 1, 2, 2, 0, 0, 0, 6, 0, 8})});
+  mesh.fields.push_back({"vel", Association::cell, 1, Array::own(std::vector<double>{5, 6})});
+  EXPECT_EQ(select_field(mesh).name, "x");
+  mesh.active_field = "vel";
+  const ScalarField magnitude = select_field(mesh);
+  EXPECT_EQ(magnitude.name, "vel:magnitude");
+  EXPECT_EQ(magnitude.values, (std::vector<float>{5, 1, 3, 0, 10}));
+  EXPECT_EQ(magnitude.high, 10);
+  EXPECT_EQ(select_field(mesh, {"vel:0", {}}).values, (std::vector<float>{3, 0, 1, 0, 6}));
+  EXPECT_EQ(select_field(mesh, {"vel", Association::cell}).values, (std::vector<float>{5, 6}));
+}
+
+TEST(SelectField, CountsWhatIsNotFinite) {
+  Mesh mesh = two_tetrahedra();
+  mesh.fields[0].values = Array::own(std::vector<double>{1, NAN, INFINITY, 1e300, -2});
+  const ScalarField field = select_field(mesh);
+  EXPECT_EQ(field.not_finite, 3u);
+  EXPECT_EQ(field.low, -2);
+  EXPECT_EQ(field.high, 1);
+  EXPECT_TRUE(std::isnan(field.values[2]));
+}
+
+TEST(SelectField, ListsWhatThereIs) {
+  Mesh mesh = two_tetrahedra();
+  auto error_of = [&](const char* name) -> std::string {
+    try {
+      select_field(mesh, {name, {}});
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "no error";
+  };
+  EXPECT_EQ(error_of("pressure"), "no field 'pressure'; there are: x (point)");
+  EXPECT_EQ(error_of("x:1"), "field 'x' has no component '1': ask for 0 to 0 or 'magnitude'");
+  mesh.fields[0].values = Array::own(std::vector<float>{1, 2});
+  EXPECT_NE(error_of("x").find("holds 2 values where 5 points"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace plume::test
