@@ -1,0 +1,33 @@
+#!/usr/bin/env bash
+# Runs every command of a page's ```sh blocks as written, in order, in a directory of its own.
+#
+#   documentation.sh SOURCE BUILD PAGE
+#
+# `./dev test` is not run again: it is what runs this. Blocks that name $PLUME_DATASETS are skipped,
+# loudly, where there is no such directory.
+set -euo pipefail
+source_dir=$1 build_dir=$2 page=$3
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+ln -s "$build_dir" build
+printf '#!/bin/sh\n[ "$1" = test ] || exec "%s/dev" "$@"\n' "$source_dir" >dev
+chmod +x dev
+export PLUME_DATASETS=${PLUME_DATASETS:-$source_dir/../shared/datasets}
+
+awk '/^```sh$/ {inside = 1; n++; next} /^```/ {inside = 0} inside {print > ("block" n)}' "$page"
+ran=0
+for block in $(ls block* | sort -V); do
+  if grep -q PLUME_DATASETS "$block" && [ ! -d "$PLUME_DATASETS" ]; then
+    echo "SKIPPED: no directory $PLUME_DATASETS (set PLUME_DATASETS) for:"
+    cat "$block"
+    continue
+  fi
+  echo "--- $(cat "$block")"
+  bash -euo pipefail "$block"
+  ran=$((ran + 1))
+done
+[ $ran -gt 0 ] || { echo "no commands found in $page" >&2; exit 1; }
+for picture in *.png; do
+  [ -s "$picture" ] || { echo "$picture is empty" >&2; exit 1; }
+done
