@@ -347,7 +347,7 @@ TEST(Generate, TwoBlocksMeetAtTheSamePlaces) {
 
 TEST(Generate, BluntBodyHasABowShock) {
   const Mesh mesh = generate("blunt-body");
-  const auto [ni, nj, nk] = mesh.dimensions;
+  const std::int64_t ni = mesh.dimensions[0], nj = mesh.dimensions[1], nk = mesh.dimensions[2];
   const auto density = [&](std::int64_t i, std::int64_t j, std::int64_t k) {
     return field(mesh, "density")
         .values.at<double>(static_cast<std::size_t>(i + ni * (j + nj * k)));
