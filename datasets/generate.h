@@ -10,7 +10,8 @@
 namespace plume {
 
 struct GenerateOptions {
-  /// Cells along an edge of the mesh, >= 1; each generator says what it makes of it. 0: its default.
+  /// Cells along an edge of the mesh, >= 1; each generator says what it makes of it. 0: its
+  /// default.
   int size = 0;
   /// Displacement of interior points, in cell edges; above about 0.3 cells turn inside out.
   double jitter = 0.2;

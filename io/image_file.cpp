@@ -2,21 +2,16 @@
 
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <cerrno>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <fstream>
 #include <limits>
 #include <memory>
 #include <set>
-#include <system_error>
 
+#include "plume/io/whole_file.h"
 #include "plume/lib/srgb.h"
 #include "plume/mesh/error.h"
 
@@ -41,42 +36,6 @@ Format format_of(const fs::path& file) {
   fail(file, extension.empty() ? "has no extension; images end in .png or .exr"
                                : "unknown image extension '" + extension + "'; use .png or .exr");
 }
-
-/// The folder that a file lies in.
-fs::path folder_of(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
-/// A name beside `file` that nobody else uses. Its length does not depend on the file's.
-fs::path temporary_name(const fs::path& file) {
-  static std::atomic<unsigned> count{0};
-  return folder_of(file) / (".plume-" + std::to_string(getpid()) + "-" + std::to_string(count++));
-}
-
-/// A file that is removed again unless it is kept.
-class TemporaryFile {
- public:
-  explicit TemporaryFile(const fs::path& target) : path_(temporary_name(target)) {}
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  ~TemporaryFile() {
-    std::error_code ignored;
-    if (!kept_) fs::remove(path_, ignored);
-  }
-
-  const fs::path& path() const { return path_; }
-
-  void keep_as(const fs::path& target) {
-    std::error_code error;
-    fs::rename(path_, target, error);
-    if (error) fail(target, "cannot be replaced (" + error.message() + "); choose another name");
-    kept_ = true;
-  }
-
- private:
-  fs::path path_;
-  bool kept_ = false;
-};
 
 void check_image(const Image& image, const fs::path& file) {
   const auto expect = [&](const std::string& what, std::size_t values, std::size_t per_pixel) {
@@ -178,17 +137,7 @@ std::vector<unsigned char> encoded(const char* format, const OIIO::ImageSpec& sp
 void write_pixels(const char* format, const OIIO::ImageSpec& spec, const void* pixels,
                   const fs::path& file) {
   const std::vector<unsigned char> bytes = encoded(format, spec, pixels, file);
-  TemporaryFile temporary(file);
-  std::ofstream out(temporary.path(), std::ios::binary);
-  errno = 0;
-  out.write(reinterpret_cast<const char*>(bytes.data()),
-            static_cast<std::streamsize>(bytes.size()));
-  out.close();
-  if (!out) {
-    fail(file, "not written (" + std::string(std::strerror(errno)) +
-                   "); is the disk full, the folder writable?");
-  }
-  temporary.keep_as(file);
+  write_whole_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
 void write_png(const Image& image, const fs::path& file, const ImageFileOptions& options) {
@@ -250,26 +199,7 @@ void write_image(const Image& image, const fs::path& file, const ImageFileOption
 
 void check_image_path(const fs::path& file) {
   format_of(file);
-  std::error_code error;
-  const fs::path folder = folder_of(file);
-  const fs::file_status there = fs::status(folder, error);
-  if (!fs::exists(there)) {
-    fail(file, "there is no folder " + folder.string() + "; create it or choose another");
-  }
-  if (!fs::is_directory(there)) fail(file, folder.string() + " is no folder; choose another");
-  const fs::file_status target = fs::status(file, error);
-  if (fs::is_directory(target)) fail(file, "is a folder; give the name of a file");
-  if (target.type() == fs::file_type::none) {
-    fail(file, "cannot be a file's name (" + error.message() + "); choose another");
-  }
-
-  // Permissions, quotas and read-only mounts show only when one tries.
-  const TemporaryFile probe(file);
-  errno = 0;
-  if (!std::ofstream(probe.path())) {
-    fail(file, "folder " + folder.string() + " is not writable (" + std::strerror(errno) +
-                   "); choose another");
-  }
+  check_writable(file);
 }
 
 Image read_image(const fs::path& file) {

@@ -1,6 +1,5 @@
 #include "plume/io/write_mesh.h"
 
-#include <unistd.h>
 #include <vtkDataSet.h>
 #include <vtkDataSetWriter.h>
 #include <vtkSmartPointer.h>
@@ -12,6 +11,7 @@
 #include "plume/io/read_file.h"
 #include "plume/io/vtk_errors.h"
 #include "plume/io/vtk_from_mesh.h"
+#include "plume/io/whole_file.h"
 #include "plume/mesh/error.h"
 
 namespace plume {
@@ -40,36 +40,6 @@ bool write_data(const std::string& extension, const std::string& file, vtkDataSe
   return writer->Write() == 1 && writer->GetErrorCode() == 0;
 }
 
-// Removes what was written so far unless it was kept.
-class PartialFile {
- public:
-  explicit PartialFile(const std::filesystem::path& file) : file_(file) {
-    // Hidden, and in the same directory, so that the renaming is one step.
-    std::string name = ".";
-    name += file.filename().string();
-    name += ".partial-";
-    name += std::to_string(::getpid());
-    partial_ = file.parent_path() / name;
-  }
-  ~PartialFile() {
-    std::error_code ignored;  // Nothing is there when writing could not start.
-    std::filesystem::remove(partial_, ignored);
-  }
-  PartialFile(const PartialFile&) = delete;
-  PartialFile& operator=(const PartialFile&) = delete;
-
-  std::string name() const { return partial_.string(); }
-  void keep() {
-    std::error_code error;
-    std::filesystem::rename(partial_, file_, error);
-    if (error) throw Error(file_.string() + ": cannot be written: " + error.message());
-  }
-
- private:
-  std::filesystem::path file_;
-  std::filesystem::path partial_;
-};
-
 void check_destination(const Mesh& mesh, const std::filesystem::path& file,
                        const std::string& extension) {
   if (extension != ".vtu" && extension != ".vts" && extension != ".vtk")
@@ -77,14 +47,7 @@ void check_destination(const Mesh& mesh, const std::filesystem::path& file,
   if (extension == ".vts" && !mesh.is_grid())
     throw Error(file.string() +
                 ": .vts holds a structured grid, and the mesh has explicit cells; write .vtu");
-  if (std::filesystem::is_directory(file))
-    throw Error(file.string() + ": is a directory; name a file in it");
-  const auto folder = std::filesystem::absolute(file).parent_path();
-  if (!std::filesystem::is_directory(folder))
-    throw Error(file.string() + ": there is no directory " + folder.string() + "; make it first");
-  if (::access(folder.c_str(), W_OK) != 0)
-    throw Error(file.string() + ": cannot write into " + folder.string() +
-                "; check its permissions");
+  check_writable(file);
 }
 
 }  // namespace
@@ -92,16 +55,16 @@ void check_destination(const Mesh& mesh, const std::filesystem::path& file,
 void write_mesh(const Mesh& mesh, const std::filesystem::path& file) {
   const std::string extension = lower_extension(file);
   check_destination(mesh, file, extension);
-  PartialFile partial(file);
+  WholeFile whole(file);
   bool written = false;
   with_vtk_errors(file, {}, "check the free space", [&] {
     const bool as_grid = mesh.is_grid() && extension != ".vtu";
     const auto data = as_grid ? structured_from(mesh) : unstructured_from(mesh);
-    written = write_data(extension, partial.name(), *data);
+    written = write_data(extension, whole.path().string(), *data);
   });
   if (!written)
     throw Error(file.string() + ": could not be written to its end; check the free space");
-  partial.keep();
+  whole.keep();
 }
 
 }  // namespace plume

@@ -1,11 +1,11 @@
 #include "plume/lib/camera.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <cmath>
 #include <numbers>
 #include <utility>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "plume/mesh/error.h"
 
@@ -40,8 +40,8 @@ Vector rotated(const Vector& v, const Vector& axis, double angle) {
 
 const std::vector<std::pair<std::string, Vector>>& views() {
   static const std::vector<std::pair<std::string, Vector>> all{
-      {"+x", {1, 0, 0}},  {"-x", {-1, 0, 0}}, {"+y", {0, 1, 0}},    {"-y", {0, -1, 0}},
-      {"+z", {0, 0, 1}},  {"-z", {0, 0, -1}}, {"iso", {-1, -1, -1}}};
+      {"+x", {1, 0, 0}}, {"-x", {-1, 0, 0}}, {"+y", {0, 1, 0}},    {"-y", {0, -1, 0}},
+      {"+z", {0, 0, 1}}, {"-z", {0, 0, -1}}, {"iso", {-1, -1, -1}}};
   return all;
 }
 
@@ -125,8 +125,8 @@ PixelRays::PixelRays(const Camera& camera, int width, int height)
   up_ = cross(right_, forward_);
   if (camera.parallel) {
     if (!(camera.parallel_scale > 0) || !std::isfinite(camera.parallel_scale))
-      throw Error(fmt::format("camera: a parallel scale of {}; it must be above 0",
-                              camera.parallel_scale));
+      throw Error(
+          fmt::format("camera: a parallel scale of {}; it must be above 0", camera.parallel_scale));
     half_height_ = camera.parallel_scale;
   } else {
     if (!(camera.view_angle > 0 && camera.view_angle < 180))

@@ -23,9 +23,8 @@ struct Camera {
 };
 
 /// A camera that looks along `direction` at the centre of `bounds` and sees just all of them, with
-/// a margin of 5%, in a picture of that aspect ratio (width / height). `view_up` may be any direction
-/// but that of sight; zero lets us choose.
-/// Throws Error where the direction is zero.
+/// a margin of 5%, in a picture of that aspect ratio (width / height). `view_up` may be any
+/// direction but that of sight; zero lets us choose. Throws Error where the direction is zero.
 Camera fitted_camera(const Bounds& bounds, const std::array<double, 3>& direction,
                      const std::array<double, 3>& view_up = {0, 0, 0}, double aspect_ratio = 1);
 

@@ -22,14 +22,14 @@ struct ColorMap {
   };
   struct OpacityPoint {
     double x = 0;
-    double opacity = 0;      ///< 0 to 1, over one unit distance
-    double midpoint = 0.5;   ///< 0 to 1, as vtkPiecewiseFunction
-    double sharpness = 0;    ///< 0 (linear) to 1 (step), as vtkPiecewiseFunction
+    double opacity = 0;     ///< 0 to 1, over one unit distance
+    double midpoint = 0.5;  ///< 0 to 1, as vtkPiecewiseFunction
+    double sharpness = 0;   ///< 0 (linear) to 1 (step), as vtkPiecewiseFunction
   };
   std::string name;
   Space space = Space::rgb;
-  std::vector<ColorPoint> colors;      ///< ascending x
-  std::vector<OpacityPoint> opacities; ///< ascending x; empty: a ramp from 0 to 1 over the colours
+  std::vector<ColorPoint> colors;       ///< ascending x
+  std::vector<OpacityPoint> opacities;  ///< ascending x; empty: a ramp from 0 to 1 over the colours
 };
 
 /// Maps the range of `map` linearly onto [low, high].
@@ -44,7 +44,8 @@ ColorMap rescaled(ColorMap map, double low, double high);
 TransferFunction to_transfer_function(const ColorMap& map, double unit_distance,
                                       double opacity_scale = 1);
 
-/// Names of the built-in colour maps: "cool-warm", "viridis", "inferno", "turbo", "gray", "rainbow".
+/// Names of the built-in colour maps: "cool-warm", "viridis", "inferno", "turbo", "gray",
+/// "rainbow".
 std::vector<std::string> preset_names();
 
 /// A built-in colour map over [0, 1] with an opacity ramp; nothing for an unknown name.

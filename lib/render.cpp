@@ -1,18 +1,18 @@
 #include "plume/lib/render.h"
 
-#include <algorithm>
-#include <atomic>
-#include <cmath>
-#include <limits>
-#include <mutex>
-#include <optional>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <limits>
+#include <mutex>
+#include <optional>
 
 #include "plume/lib/pixel.h"
 #include "plume/lib/scene_body.h"
@@ -39,8 +39,8 @@ void check(const RenderSettings& settings) {
     throw Error(fmt::format("{} samples per segment: at least 1", settings.integrator.samples));
   for (const std::string& channel : settings.channels)
     if (std::find(kChannels.begin(), kChannels.end(), channel) == kChannels.end())
-      throw Error(fmt::format("no channel '{}'; there are: {}", channel,
-                              fmt::join(kChannels, " ")));
+      throw Error(
+          fmt::format("no channel '{}'; there are: {}", channel, fmt::join(kChannels, " ")));
 }
 
 struct Counts {
@@ -85,8 +85,9 @@ class Frame {
     const int end_y = std::min(tile_y + kTile, settings_.height);
     for (int y = tile_y; y < end_y; ++y)
       for (int x = tile_x; x < end_x; ++x) {
-        const std::size_t index = static_cast<std::size_t>(y) * static_cast<std::size_t>(settings_.width) +
-                                  static_cast<std::size_t>(x);
+        const std::size_t index =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(settings_.width) +
+            static_cast<std::size_t>(x);
         counts.add(render_pixel(walkable, integrator, rays_(x + 0.5, y + 0.5), index));
       }
   }
@@ -140,8 +141,8 @@ class Frame {
     put(depth_, channels.first.depth);
     put(optical_depth_, channels.optical_depth);
     put(cell_count_, static_cast<double>(channels.cells));
-    put(cell_id_, channels.first.cell == kNone ? -1.0
-                                               : walkable.mesh.original_cell(channels.first.cell));
+    put(cell_id_,
+        channels.first.cell == kNone ? -1.0 : walkable.mesh.original_cell(channels.first.cell));
     return result;
   }
 
@@ -229,11 +230,11 @@ class ProgressReport {
 std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings& settings) {
   std::vector<std::string> plan;
   const std::string form = scene.form();
-  plan.push_back(fmt::format(
-      "walk: {} ({})", form,
-      form == "tetrahedra" ? "all cells are tetrahedra: the scalar is linear in each"
-      : form == "grid"     ? "one curvilinear grid: neighbours follow from the indices"
-                           : "mixed cells: faces and their two sides are stored"));
+  plan.push_back(
+      fmt::format("walk: {} ({})", form,
+                  form == "tetrahedra" ? "all cells are tetrahedra: the scalar is linear in each"
+                  : form == "grid"     ? "one curvilinear grid: neighbours follow from the indices"
+                                       : "mixed cells: faces and their two sides are stored"));
   plan.push_back(fmt::format("scalar: {}, {}", scene.field().name,
                              scene.field().association == Association::cell
                                  ? "constant in each cell, as the field is cell-centred"
@@ -246,9 +247,15 @@ std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings&
                                  scene.transfer_function().knots.size()));
       break;
     }
-    case Mode::maximum: plan.push_back("maximum of the scalar: no optics"); break;
-    case Mode::integral: plan.push_back("integral of the scalar: no optics"); break;
-    case Mode::depth: plan.push_back("first contribution: optical depth alone"); break;
+    case Mode::maximum:
+      plan.push_back("maximum of the scalar: no optics");
+      break;
+    case Mode::integral:
+      plan.push_back("integral of the scalar: no optics");
+      break;
+    case Mode::depth:
+      plan.push_back("first contribution: optical depth alone");
+      break;
   }
   return plan;
 }
@@ -282,14 +289,15 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   std::visit(
       [&](const auto& walkable, const auto& chosen) {
         arena.execute([&] {
-          tbb::parallel_for(tbb::blocked_range<int>(0, tiles_x * tiles_y, 1), [&](const auto& range) {
-            for (int tile = range.begin(); tile != range.end(); ++tile) {
-              if (report.cancelled()) return;
-              frame.render_tile(*walkable, chosen, tile % tiles_x * kTile, tile / tiles_x * kTile,
-                                counts.local());
-              report.tile_done();
-            }
-          });
+          tbb::parallel_for(tbb::blocked_range<int>(0, tiles_x * tiles_y, 1),
+                            [&](const auto& range) {
+                              for (int tile = range.begin(); tile != range.end(); ++tile) {
+                                if (report.cancelled()) return;
+                                frame.render_tile(*walkable, chosen, tile % tiles_x * kTile,
+                                                  tile / tiles_x * kTile, counts.local());
+                                report.tile_done();
+                              }
+                            });
         });
       },
       scene.body().walkable, integrator);

@@ -29,8 +29,8 @@ enum class Mode : std::uint8_t {
 };
 
 struct RenderSettings {
-  int width = 1024;   ///< pixels, 1 to 65536
-  int height = 768;   ///< pixels, 1 to 65536
+  int width = 1024;  ///< pixels, 1 to 65536
+  int height = 768;  ///< pixels, 1 to 65536
   Mode mode = Mode::volume;
   IntegratorSettings integrator;
   /// A ray ends once it is seen through by no more than this share: a colour channel is off by at

@@ -1,8 +1,8 @@
 #include "plume/lib/scene.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
+
+#include <algorithm>
 
 #include "plume/lib/camera.h"
 #include "plume/lib/fitted_map.h"

@@ -65,8 +65,8 @@ class Scene {
   void set_transfer_function(TransferFunction transfer_function);
 
   /// Follows a ray and calls `visit` for each segment, front to back, until that returns false.
-  /// `Segment::cell` is a number of the user's mesh where keep_cell_numbers was set or the mesh is a
-  /// grid. For programs with an optics of their own; see traverse/trace.h for the guarantees.
+  /// `Segment::cell` is a number of the user's mesh where keep_cell_numbers was set or the mesh is
+  /// a grid. For programs with an optics of their own; see traverse/trace.h for the guarantees.
   TraceResult trace(const Ray& ray, const std::function<bool(const Segment&)>& visit) const;
 
   struct Body;

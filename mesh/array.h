@@ -43,11 +43,16 @@ class Array {
   template <class F>
   decltype(auto) visit(F&& f) const {
     switch (type_) {
-      case Type::uint8: return f(span<std::uint8_t>());
-      case Type::int32: return f(span<std::int32_t>());
-      case Type::int64: return f(span<std::int64_t>());
-      case Type::float32: return f(span<float>());
-      case Type::float64: break;
+      case Type::uint8:
+        return f(span<std::uint8_t>());
+      case Type::int32:
+        return f(span<std::int32_t>());
+      case Type::int64:
+        return f(span<std::int64_t>());
+      case Type::float32:
+        return f(span<float>());
+      case Type::float64:
+        break;
     }
     return f(span<double>());
   }
@@ -69,10 +74,14 @@ class Array {
 
   template <class T>
   static constexpr Type type_of() {
-    if constexpr (std::is_same_v<T, std::uint8_t>) return Type::uint8;
-    else if constexpr (std::is_same_v<T, float>) return Type::float32;
-    else if constexpr (std::is_same_v<T, double>) return Type::float64;
-    else if constexpr (std::is_integral_v<T> && std::is_signed_v<T> && sizeof(T) == 4) return Type::int32;
+    if constexpr (std::is_same_v<T, std::uint8_t>)
+      return Type::uint8;
+    else if constexpr (std::is_same_v<T, float>)
+      return Type::float32;
+    else if constexpr (std::is_same_v<T, double>)
+      return Type::float64;
+    else if constexpr (std::is_integral_v<T> && std::is_signed_v<T> && sizeof(T) == 4)
+      return Type::int32;
     else {
       static_assert(std::is_integral_v<T> && std::is_signed_v<T> && sizeof(T) == 8,
                     "an Array holds uint8, int32, int64, float or double");

@@ -55,8 +55,10 @@ void drop_repeated_points(CellFaces& faces) {
     }
     read += size;
     while (write > begin + 1 && faces.ids[write - 1] == faces.ids[begin]) --write;
-    if (write - begin < 3) write = begin;
-    else faces.sizes[kept++] = static_cast<std::uint32_t>(write - begin);
+    if (write - begin < 3)
+      write = begin;
+    else
+      faces.sizes[kept++] = static_cast<std::uint32_t>(write - begin);
   }
   faces.ids.resize(write);
   faces.sizes.resize(kept);
@@ -99,7 +101,8 @@ bool close_and_orient(const Mesh& mesh, CellFaces& faces) {
     queue.assign(1, seed);
     for (std::size_t i = 0; i < queue.size(); ++i) {
       for (const Link& link : links[queue[i]]) {
-        const auto wanted = static_cast<std::uint8_t>(link.agree ? turned[queue[i]] : !turned[queue[i]]);
+        const auto wanted =
+            static_cast<std::uint8_t>(link.agree ? turned[queue[i]] : !turned[queue[i]]);
         if (turned[link.face] == kUnseen) {
           turned[link.face] = wanted;
           queue.push_back(link.face);

@@ -31,9 +31,8 @@ void CellReader::points(std::size_t cell, std::vector<std::uint32_t>& ids) const
     const std::size_t j = cell / (ni - 1) % (nj - 1);
     const std::size_t k = cell / (ni - 1) / (nj - 1);
     const std::size_t base = i + ni * (j + nj * k);
-    for (const std::size_t step :
-         {std::size_t{0}, std::size_t{1}, 1 + ni, ni, ni * nj, 1 + ni * nj, 1 + ni + ni * nj,
-          ni + ni * nj})
+    for (const std::size_t step : {std::size_t{0}, std::size_t{1}, 1 + ni, ni, ni * nj, 1 + ni * nj,
+                                   1 + ni + ni * nj, ni + ni * nj})
       ids.push_back(static_cast<std::uint32_t>(base + step));
     return;
   }

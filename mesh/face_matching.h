@@ -1,15 +1,15 @@
 /// Which faces of a mesh are one and the same: the adjacency of cells.
 #pragma once
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
-
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 namespace plume {
 
@@ -40,8 +40,7 @@ void match_faces(std::size_t points, std::size_t slots, const Key& key, const Sa
   tbb::parallel_for(all, [&](const auto& range) {
     for (std::size_t s = range.begin(); s != range.end(); ++s) {
       const std::uint32_t first = key(s)[0];
-      if (first != kNone)
-        std::atomic_ref(begin[first + 1]).fetch_add(1, std::memory_order_relaxed);
+      if (first != kNone) std::atomic_ref(begin[first + 1]).fetch_add(1, std::memory_order_relaxed);
     }
   });
   for (std::size_t p = 0; p < points; ++p) begin[p + 1] += begin[p];

@@ -1,9 +1,9 @@
 #include "plume/mesh/findings.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+
+#include <algorithm>
 
 namespace plume {
 

@@ -1,11 +1,11 @@
 #include "plume/mesh/local_frame.h"
 
-#include <algorithm>
-#include <limits>
-
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_reduce.h>
+
+#include <algorithm>
+#include <limits>
 
 #include "plume/mesh/error.h"
 

@@ -39,22 +39,21 @@ struct LocalFrame {
     LocalFrame frame;
     frame.center = bounds.center();
     double half = 0;
-    for (std::size_t a = 0; a < 3; ++a)
-      half = std::fmax(half, bounds.high[a] - frame.center[a]);
+    for (std::size_t a = 0; a < 3; ++a) half = std::fmax(half, bounds.high[a] - frame.center[a]);
     if (half > 0) frame.scale = std::exp2(-std::ceil(std::log2(half)));
     return frame;
   }
 
   WalkablePoint local(double x, double y, double z, float scalar) const {
-    return {{static_cast<float>((x - center[0]) * scale),
-             static_cast<float>((y - center[1]) * scale),
-             static_cast<float>((z - center[2]) * scale)},
-            scalar};
+    return {
+        {static_cast<float>((x - center[0]) * scale), static_cast<float>((y - center[1]) * scale),
+         static_cast<float>((z - center[2]) * scale)},
+        scalar};
   }
 };
 
-/// Bounds of interleaved x, y, z. Throws Error, naming the first point, where a coordinate is NaN or
-/// infinite, and where there is no point at all.
+/// Bounds of interleaved x, y, z. Throws Error, naming the first point, where a coordinate is NaN
+/// or infinite, and where there is no point at all.
 Bounds bounds_of(const Array& points);
 
 }  // namespace plume

@@ -6,28 +6,44 @@ namespace plume {
 
 int points_per_cell(CellType type) {
   switch (type) {
-    case CellType::tetrahedron: return 4;
-    case CellType::voxel: return 8;
-    case CellType::hexahedron: return 8;
-    case CellType::wedge: return 6;
-    case CellType::pyramid: return 5;
-    case CellType::pentagonal_prism: return 10;
-    case CellType::hexagonal_prism: return 12;
-    case CellType::polyhedron: break;
+    case CellType::tetrahedron:
+      return 4;
+    case CellType::voxel:
+      return 8;
+    case CellType::hexahedron:
+      return 8;
+    case CellType::wedge:
+      return 6;
+    case CellType::pyramid:
+      return 5;
+    case CellType::pentagonal_prism:
+      return 10;
+    case CellType::hexagonal_prism:
+      return 12;
+    case CellType::polyhedron:
+      break;
   }
   return 0;
 }
 
 const char* cell_type_name(CellType type) {
   switch (type) {
-    case CellType::tetrahedron: return "tetrahedron";
-    case CellType::voxel: return "voxel";
-    case CellType::hexahedron: return "hexahedron";
-    case CellType::wedge: return "wedge";
-    case CellType::pyramid: return "pyramid";
-    case CellType::pentagonal_prism: return "pentagonal prism";
-    case CellType::hexagonal_prism: return "hexagonal prism";
-    case CellType::polyhedron: break;
+    case CellType::tetrahedron:
+      return "tetrahedron";
+    case CellType::voxel:
+      return "voxel";
+    case CellType::hexahedron:
+      return "hexahedron";
+    case CellType::wedge:
+      return "wedge";
+    case CellType::pyramid:
+      return "pyramid";
+    case CellType::pentagonal_prism:
+      return "pentagonal prism";
+    case CellType::hexagonal_prism:
+      return "hexagonal prism";
+    case CellType::polyhedron:
+      break;
   }
   return "polyhedron";
 }

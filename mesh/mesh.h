@@ -59,7 +59,8 @@ struct Mesh {
   /// zero for a mesh of explicit cells.
   std::array<std::int64_t, 3> dimensions{0, 0, 0};
   Cells cells;
-  /// Curvilinear grids only: nonzero (uint8) where a cell is hidden (blanked, a ghost). May be empty.
+  /// Curvilinear grids only: nonzero (uint8) where a cell is hidden (blanked, a ghost). May be
+  /// empty.
   Array hidden_cells;
   std::vector<Field> fields;
   /// Name of the field that the file calls active; may be empty.

@@ -14,9 +14,9 @@ namespace plume {
 ///
 /// A cell that is merely inside out (its points moved too far) is not turned: its neighbours agree
 /// with it on who is on which side. `for_each_neighbor(cell, f)` calls f(neighbour, agree, face);
-/// `signed_volume(cell)` is positive for a cell of positive orientation. `cut(cell, face)` is called
-/// where no choice can make two neighbours agree (a one-sided strip of cells); the caller must take
-/// the link away on both sides. Returns 1 for the cells to be turned.
+/// `signed_volume(cell)` is positive for a cell of positive orientation. `cut(cell, face)` is
+/// called where no choice can make two neighbours agree (a one-sided strip of cells); the caller
+/// must take the link away on both sides. Returns 1 for the cells to be turned.
 template <class ForEachNeighbor, class SignedVolume, class Cut>
 std::vector<std::uint8_t> cells_to_turn(std::size_t cells, const ForEachNeighbor& for_each_neighbor,
                                         const SignedVolume& signed_volume, const Cut& cut) {

@@ -1,13 +1,13 @@
 #include "plume/mesh/scalar_field.h"
 
+#include <fmt/format.h>
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
-
-#include <fmt/format.h>
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 
 #include "plume/mesh/error.h"
 
@@ -33,8 +33,7 @@ const Field* find(const Mesh& mesh, const std::string& name, std::optional<Assoc
 // "NAME", "NAME:component", "NAME:magnitude"; a name may hold colons itself, so the whole is tried
 // first.
 Choice choose(const Mesh& mesh, const FieldRequest& request) {
-  if (mesh.fields.empty())
-    throw Error("the mesh has no fields: there is nothing to colour it by");
+  if (mesh.fields.empty()) throw Error("the mesh has no fields: there is nothing to colour it by");
   if (request.name.empty()) {
     const Field* active = find(mesh, mesh.active_field, request.association);
     return {active ? active : &mesh.fields.front(), kMagnitude};
@@ -52,9 +51,8 @@ Choice choose(const Mesh& mesh, const FieldRequest& request) {
       if (error == std::errc{} && end == part.data() + part.size() && component >= 0 &&
           component < field->components)
         return {field, component};
-      throw Error(fmt::format(
-          "field '{}' has no component '{}': ask for 0 to {} or 'magnitude'", name, part,
-          field->components - 1));
+      throw Error(fmt::format("field '{}' has no component '{}': ask for 0 to {} or 'magnitude'",
+                              name, part, field->components - 1));
     }
   }
   throw Error(fmt::format("no field '{}'; there are: {}", request.name, list_fields(mesh)));

@@ -1,10 +1,10 @@
 #include "plume/mesh/space_curve.h"
 
-#include <algorithm>
-
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
+
+#include <algorithm>
 
 namespace plume {
 namespace {

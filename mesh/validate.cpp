@@ -1,12 +1,12 @@
 #include "plume/mesh/validate.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
 
 #include "plume/mesh/error.h"
 #include "plume/mesh/explicit_cells.h"
@@ -41,13 +41,14 @@ void check_layout(const Mesh& mesh) {
   if (cells.offsets.empty()) return;
   cells.offsets.visit([&](auto offsets) {
     for (std::size_t i = 0; i < count; ++i) {
-      const CellType type = static_cast<CellType>(cells.types.at<int>(cells.types.size() == 1 ? 0 : i));
+      const CellType type =
+          static_cast<CellType>(cells.types.at<int>(cells.types.size() == 1 ? 0 : i));
       const double begin = static_cast<double>(offsets[i]);
       const double end = static_cast<double>(offsets[i + 1]);
       if (begin < 0 || end < begin || end > static_cast<double>(cells.connectivity.size()))
-        throw Error(fmt::format(
-            "cell {} claims connectivity {} to {} of {}: its offsets are out of order", i, begin, end,
-            cells.connectivity.size()));
+        throw Error(
+            fmt::format("cell {} claims connectivity {} to {} of {}: its offsets are out of order",
+                        i, begin, end, cells.connectivity.size()));
       const int wanted = points_per_cell(type);
       if (wanted > 0 && end - begin != wanted)
         throw Error(fmt::format("cell {}, a {}, has {} points instead of {}", i,
@@ -61,11 +62,13 @@ void check_polyhedra(const Mesh& mesh) {
   const std::size_t count = mesh.cell_count();
   const auto stream_size = cells.polyhedron_faces.size();
   for (std::size_t i = 0; i < count; ++i) {
-    if (cells.types.at<int>(cells.types.size() == 1 ? 0 : i) != static_cast<int>(CellType::polyhedron))
+    if (cells.types.at<int>(cells.types.size() == 1 ? 0 : i) !=
+        static_cast<int>(CellType::polyhedron))
       continue;
     if (cells.polyhedron_locations.size() != count)
-      throw Error(fmt::format("cell {} is a polyhedron, but there are {} face locations for {} cells",
-                              i, cells.polyhedron_locations.size(), count));
+      throw Error(
+          fmt::format("cell {} is a polyhedron, but there are {} face locations for {} cells", i,
+                      cells.polyhedron_locations.size(), count));
     auto truncated = [&](std::int64_t at) {
       return Error(fmt::format("cell {}, a polyhedron, has faces beyond the face stream ({} of {})",
                                i, at, stream_size));
@@ -90,8 +93,8 @@ void check_polyhedra(const Mesh& mesh) {
 
 std::size_t cell_of(const Mesh& mesh, std::size_t connectivity_index) {
   if (mesh.cells.offsets.empty())
-    return connectivity_index /
-           static_cast<std::size_t>(points_per_cell(static_cast<CellType>(mesh.cells.types.at<int>(0))));
+    return connectivity_index / static_cast<std::size_t>(points_per_cell(
+                                    static_cast<CellType>(mesh.cells.types.at<int>(0))));
   return mesh.cells.offsets.visit([&](auto offsets) {
     const auto after = std::upper_bound(
         offsets.begin(), offsets.end(), connectivity_index,
@@ -188,8 +191,10 @@ std::vector<Finding> find_poor_cells(const Mesh& mesh) {
         cells.faces(i, sizes, ids);
         const double volume = signed_volume(mesh, sizes, ids);
         const double extent = extent_of(mesh, points);
-        if (std::abs(volume) <= kFlat * extent * extent * extent) add_example(mine.flat, i);
-        else add_example(volume > 0 ? mine.positive : mine.negative, i);
+        if (std::abs(volume) <= kFlat * extent * extent * extent)
+          add_example(mine.flat, i);
+        else
+          add_example(volume > 0 ? mine.positive : mine.negative, i);
       }
       std::sort(points.begin(), points.end());
       if (std::adjacent_find(points.begin(), points.end()) != points.end())
@@ -199,8 +204,7 @@ std::vector<Finding> find_poor_cells(const Mesh& mesh) {
   PoorCells whole;
   for (const PoorCells& part : parts) whole.merge(part);
   // A mesh may be left-handed as a whole; inside out are the cells that differ from the others.
-  Finding& inverted =
-      whole.positive.count < whole.negative.count ? whole.positive : whole.negative;
+  Finding& inverted = whole.positive.count < whole.negative.count ? whole.positive : whole.negative;
   std::vector<Finding> findings;
   for (Finding* finding : {&inverted, &whole.flat, &whole.repeated})
     if (finding->count > 0) findings.push_back(std::move(*finding));

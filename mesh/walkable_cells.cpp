@@ -17,8 +17,8 @@ struct Slots {
   std::vector<std::uint32_t> cell;           // of each slot
   std::vector<std::uint32_t> begin{0};       // slots + 1 offsets into ids
   std::vector<std::uint32_t> ids;
-  std::vector<std::uint32_t> partner;        // the same face of the neighbour, or kNone
-  std::vector<double> volume;                // of each cell
+  std::vector<std::uint32_t> partner;  // the same face of the neighbour, or kNone
+  std::vector<double> volume;          // of each cell
 
   std::span<const std::uint32_t> loop(std::uint32_t slot) const {
     return {ids.data() + begin[slot], ids.data() + begin[slot + 1]};
@@ -50,8 +50,8 @@ Slots read_slots(const Mesh& mesh, const CellReader& cells, std::vector<std::uin
   std::erase_if(order, [&](std::uint32_t cell) {
     cells.faces(cell, faces.sizes, faces.ids);
     drop_repeated_points(faces);
-    const bool closed = cells.type(cell) == CellType::polyhedron ? close_and_orient(mesh, faces)
-                                                                 : is_closed(faces);
+    const bool closed =
+        cells.type(cell) == CellType::polyhedron ? close_and_orient(mesh, faces) : is_closed(faces);
     if (!closed || faces.sizes.empty()) {
       add_example(open, cell);
       return true;
@@ -203,8 +203,8 @@ std::size_t WalkableCells::bytes() const {
          bytes_of(original_cells) + bytes_of(boundary);
 }
 
-WalkableCells make_walkable_cells(const Mesh& mesh, const ScalarField& scalar,
-                                  const Bounds& bounds, bool keep_original_cells) {
+WalkableCells make_walkable_cells(const Mesh& mesh, const ScalarField& scalar, const Bounds& bounds,
+                                  bool keep_original_cells) {
   WalkableCells result;
   result.frame = LocalFrame::of(bounds);
   const CellReader cells(mesh);

@@ -23,14 +23,14 @@ struct WalkableCells {
 
   LocalFrame frame;
   std::vector<WalkablePoint> points;
-  std::vector<std::uint32_t> face_begin;   ///< faces + 1 offsets into face_points
+  std::vector<std::uint32_t> face_begin;  ///< faces + 1 offsets into face_points
   std::vector<std::uint32_t> face_points;
   std::vector<FaceSides> face_sides;
-  std::vector<std::uint32_t> cell_begin;   ///< cells + 1 offsets into cell_faces
-  std::vector<std::uint32_t> cell_faces;   ///< numbers of faces
-  std::vector<float> cell_values;          ///< one a cell where the field is cell-centred
+  std::vector<std::uint32_t> cell_begin;      ///< cells + 1 offsets into cell_faces
+  std::vector<std::uint32_t> cell_faces;      ///< numbers of faces
+  std::vector<float> cell_values;             ///< one a cell where the field is cell-centred
   std::vector<std::uint32_t> original_cells;  ///< empty unless asked for
-  std::vector<BoundaryFace> boundary;      ///< `face` is a number in face_sides
+  std::vector<BoundaryFace> boundary;         ///< `face` is a number in face_sides
   std::vector<Finding> findings;
 
   std::size_t cell_count() const { return cell_begin.size() - 1; }
@@ -51,7 +51,7 @@ struct WalkableCells {
 /// are turned so that they agree with each other; a polyhedron whose faces leave a gap has no
 /// inside, is left out, and is named in `findings`. Requires a mesh of explicit cells that passed
 /// check_structure().
-WalkableCells make_walkable_cells(const Mesh& mesh, const ScalarField& scalar,
-                                  const Bounds& bounds, bool keep_original_cells);
+WalkableCells make_walkable_cells(const Mesh& mesh, const ScalarField& scalar, const Bounds& bounds,
+                                  bool keep_original_cells);
 
 }  // namespace plume

@@ -51,8 +51,7 @@ std::uint32_t WalkableGrid::neighbor(std::uint32_t cell, std::uint32_t face) con
   return !hidden.empty() && hidden[other] ? kNone : other;
 }
 
-WalkableGrid make_walkable_grid(const Mesh& mesh, const ScalarField& scalar,
-                                const Bounds& bounds) {
+WalkableGrid make_walkable_grid(const Mesh& mesh, const ScalarField& scalar, const Bounds& bounds) {
   WalkableGrid grid;
   grid.frame = LocalFrame::of(bounds);
   for (std::size_t a = 0; a < 3; ++a)
@@ -61,12 +60,13 @@ WalkableGrid make_walkable_grid(const Mesh& mesh, const ScalarField& scalar,
   const bool on_points = scalar.association == Association::point;
   grid.points.resize(mesh.point_count());
   mesh.points.visit([&](auto xyz) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, grid.points.size()), [&](const auto& range) {
-      for (std::size_t p = range.begin(); p != range.end(); ++p)
-        grid.points[p] = grid.frame.local(
-            static_cast<double>(xyz[3 * p]), static_cast<double>(xyz[3 * p + 1]),
-            static_cast<double>(xyz[3 * p + 2]), on_points ? scalar.values[p] : 0.0f);
-    });
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, grid.points.size()), [&](const auto& range) {
+          for (std::size_t p = range.begin(); p != range.end(); ++p)
+            grid.points[p] = grid.frame.local(
+                static_cast<double>(xyz[3 * p]), static_cast<double>(xyz[3 * p + 1]),
+                static_cast<double>(xyz[3 * p + 2]), on_points ? scalar.values[p] : 0.0f);
+        });
   });
   if (!on_points) grid.cell_values = scalar.values;
 

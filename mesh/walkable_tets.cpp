@@ -1,10 +1,10 @@
 #include "plume/mesh/walkable_tets.h"
 
-#include <algorithm>
-#include <mutex>
-
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <mutex>
 
 #include "plume/mesh/cell_faces.h"
 #include "plume/mesh/orientation.h"
@@ -75,7 +75,8 @@ std::vector<std::uint32_t> order_cells(const Mesh& mesh, WalkableTets& tets) {
         double center[3] = {0, 0, 0};
         for (std::size_t v = 0; v < 4; ++v)
           for (std::size_t a = 0; a < 3; ++a)
-            center[a] += 0.25 * static_cast<double>(xyz[3 * static_cast<std::size_t>(ids[4 * cell + v]) + a]);
+            center[a] += 0.25 * static_cast<double>(
+                                    xyz[3 * static_cast<std::size_t>(ids[4 * cell + v]) + a]);
         const WalkablePoint p = tets.frame.local(center[0], center[1], center[2], 0);
         return std::array<float, 3>{p.position[0], p.position[1], p.position[2]};
       });

@@ -53,9 +53,10 @@ class GridWalker {
     int count = 0;
     for (std::size_t f = 0; f < 6; ++f) {
       const auto& loop = kLoop[f];
-      ways[f] = frame_.sign() *
-                outward(static_cast<std::uint32_t>(f), winding({corner[loop[0]], corner[loop[1]],
-                                                                corner[loop[2]], corner[loop[3]]}));
+      ways[f] =
+          frame_.sign() *
+          outward(static_cast<std::uint32_t>(f),
+                  winding({corner[loop[0]], corner[loop[1]], corner[loop[2]], corner[loop[3]]}));
       count += std::abs(ways[f]);
     }
     auto measure = [&](std::uint32_t f) {
@@ -85,8 +86,8 @@ class GridWalker {
   }
 
  private:
-  // Corners of the faces -i, +i, -j, +j, -k, +k, corner (a, b, c) being a + 2b + 4c. Both cells at a
-  // face go around it from the same corner in the same direction, so they see the same numbers;
+  // Corners of the faces -i, +i, -j, +j, -k, +k, corner (a, b, c) being a + 2b + 4c. Both cells at
+  // a face go around it from the same corner in the same direction, so they see the same numbers;
   // from outside of a right-handed cell that is counterclockwise for +i, +j and +k.
   static constexpr std::uint8_t kLoop[6][4] = {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 4, 5, 1},
                                                {2, 6, 7, 3}, {0, 1, 3, 2}, {4, 5, 7, 6}};

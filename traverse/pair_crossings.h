@@ -21,8 +21,9 @@ struct CellCrossing {
 
 /// Pairs ways in with ways out in the order along the ray and returns the one that belongs to the
 /// entry (face, rank). The i-th way in goes with the i-th way out, so the pairing is one-to-one
-/// whatever the measurements say, and depends on nothing but the cell and the ray. Nothing where the
-/// entry is none of the cell's. `crossings` (size many) is sorted in place; `sign` is the ray's.
+/// whatever the measurements say, and depends on nothing but the cell and the ray. Nothing where
+/// the entry is none of the cell's. `crossings` (size many) is sorted in place; `sign` is the
+/// ray's.
 inline std::optional<CellCrossing> exit_for(CellCrossing* crossings, std::size_t size,
                                             std::uint32_t face, std::uint32_t rank, int sign) {
   auto before = [sign](const CellCrossing& a, const CellCrossing& b) {

@@ -75,8 +75,8 @@ class ShearedFrame {
 
   ShearedPoint operator()(const WalkablePoint& p) const {
     const float z = p.position[z_];
-    return {(p.position[x_] - offset_x_) - slope_x_ * z, (p.position[y_] - offset_y_) - slope_y_ * z,
-            z, p.scalar};
+    return {(p.position[x_] - offset_x_) - slope_x_ * z,
+            (p.position[y_] - offset_y_) - slope_y_ * z, z, p.scalar};
   }
 
   /// Distance along the ray, in world units, of a place at this z.

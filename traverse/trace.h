@@ -30,10 +30,10 @@ inline void cut(Segment& segment, double from, double to) {
 /// until that returns false or the mesh ends.
 ///
 /// Within one passage from boundary to boundary the segments join without gap: t_in is the t_out
-/// before it, bit for bit, and so are the scalars. In a mesh whose cells overlap, where the ray would
-/// have to go back, the segment has length zero instead. A mesh that is not convex is left and
-/// entered again; passages come in the order of their entries. What one passage has covered the next
-/// does not cover again (parts that overlap, or blocks that touch along the ray): no length is
+/// before it, bit for bit, and so are the scalars. In a mesh whose cells overlap, where the ray
+/// would have to go back, the segment has length zero instead. A mesh that is not convex is left
+/// and entered again; passages come in the order of their entries. What one passage has covered the
+/// next does not cover again (parts that overlap, or blocks that touch along the ray): no length is
 /// counted twice. Where a segment is cut (there, at t_min, at t_max) its scalar is interpolated
 /// linearly.
 template <class Walker, class Visit>

@@ -26,10 +26,4 @@ std::string with_separators(std::size_t number);
 /// The most memory that this process has held, in bytes.
 std::size_t peak_memory_bytes();
 
-/// Writes a text file under its name only once it is whole. Throws Error.
-void write_text_file(const std::string& file, const std::string& text);
-
-/// Throws Error unless a file of that name could be written; leaves nothing behind.
-void check_writable(const std::string& file);
-
 }  // namespace plume::command

@@ -1,12 +1,13 @@
 // plume generate: a mesh made on the spot.
 
-#include <memory>
-
 #include <fmt/format.h>
+
+#include <memory>
 
 #include "commands.h"
 #include "console.h"
 #include "plume/datasets/generate.h"
+#include "plume/io/whole_file.h"
 #include "plume/io/write_mesh.h"
 
 namespace plume::command {
@@ -39,8 +40,9 @@ void add_generate(CLI::App& app) {
   command->add_option("-o,--output", args->output, "The mesh file: .vtu, .vts or .vtk")->required();
   command->add_option("--size", args->options.size, "Cells along an edge (each mesh's own default)")
       ->check(CLI::PositiveNumber);
-  command->add_option("--jitter", args->options.jitter,
-                      "Displacement of interior points, in cell edges (0.2)")
+  command
+      ->add_option("--jitter", args->options.jitter,
+                   "Displacement of interior points, in cell edges (0.2)")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--seed", args->options.seed, "Seed of the displacement (1)");
   command->add_flag("--quiet", args->quiet, "Print nothing but errors");

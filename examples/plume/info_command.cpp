@@ -1,10 +1,10 @@
 // plume info: what is in a mesh file.
 
+#include <fmt/format.h>
+
 #include <iostream>
 #include <map>
 #include <memory>
-
-#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
@@ -96,13 +96,14 @@ void print(const std::string& file, const json& info) {
   line("memory", fmt::format("{} bytes as walkable {}", number(info["memory_bytes"]),
                              info["form"].get<std::string>()));
   for (const json& field : info["fields"]) {
-    std::string text =
-        fmt::format("{} ({} data", field["name"].get<std::string>(), field["association"].get<std::string>());
+    std::string text = fmt::format("{} ({} data", field["name"].get<std::string>(),
+                                   field["association"].get<std::string>());
     const int components = field["components"];
     if (components > 1) text += fmt::format(", {} components", components);
     text += fmt::format("): {}{:g} to {:g}", components > 1 ? "magnitude " : "",
                         field["range"][0].get<double>(), field["range"][1].get<double>());
-    if (field["not_finite"] > 0) text += fmt::format(", {} not finite", number(field["not_finite"]));
+    if (field["not_finite"] > 0)
+      text += fmt::format(", {} not finite", number(field["not_finite"]));
     if (field["name"] == info["active_field"]) text += ", active";
     line("field", text);
   }
@@ -115,16 +116,18 @@ void run(const InfoArguments& args) {
   options.merge_points = args.merge_points;
   if (args.time_step >= 0) options.time_step = args.time_step;
   std::vector<std::string> notices;
-  const Mesh mesh = read_mesh(args.mesh, options,
-                              [&](const std::string& line) { notices.push_back(line); });
+  const Mesh mesh =
+      read_mesh(args.mesh, options, [&](const std::string& line) { notices.push_back(line); });
   json info;
   try {
     info = describe_mesh(mesh, std::move(notices));
   } catch (const Error& error) {
     throw Error(args.mesh + ": " + error.what());
   }
-  if (args.as_json) std::cout << info.dump(2) << '\n';
-  else print(args.mesh, info);
+  if (args.as_json)
+    std::cout << info.dump(2) << '\n';
+  else
+    print(args.mesh, info);
 }
 
 }  // namespace

@@ -1,11 +1,11 @@
 // plume render: a mesh file becomes a picture.
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <chrono>
 #include <filesystem>
 #include <memory>
-
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
@@ -14,6 +14,7 @@
 #include "plume/io/color_map_file.h"
 #include "plume/io/image_file.h"
 #include "plume/io/read_mesh.h"
+#include "plume/io/whole_file.h"
 #include "plume/lib/plume.h"
 
 namespace plume::command {
@@ -115,9 +116,12 @@ Camera choose_camera(const Bounds& bounds, const RenderArguments& args, double a
 void choose_background(const std::string& text, ImageFileOptions& options) {
   if (text == "transparent") return;
   std::vector<double> rgb;
-  if (text == "white") rgb = {1, 1, 1};
-  else if (text == "black") rgb = {0, 0, 0};
-  else rgb = parse_numbers("--background", text, {3});
+  if (text == "white")
+    rgb = {1, 1, 1};
+  else if (text == "black")
+    rgb = {0, 0, 0};
+  else
+    rgb = parse_numbers("--background", text, {3});
   for (std::size_t c = 0; c < 3; ++c) {
     if (rgb[c] < 0 || rgb[c] > 1)
       throw Error(fmt::format("--background '{}': each number must be 0 to 1", text));
@@ -184,8 +188,7 @@ void run(const RenderArguments& args) {
   settings.early_termination = args.early_termination;
   settings.threads = args.threads;
   settings.channels = args.channels;
-  const Camera camera =
-      choose_camera(scene.bounds(), args, aspect_ratio);
+  const Camera camera = choose_camera(scene.bounds(), args, aspect_ratio);
   const RenderResult result = render(scene, camera, settings, console.progress_bar());
   const double ms_render = watch.lap();
   const RenderStatistics& statistics = result.statistics;
@@ -198,12 +201,12 @@ void run(const RenderArguments& args) {
       {"plume:field", field.name},
       {"plume:mode", args.mode},
       {"plume:plan", fmt::format("{}", fmt::join(statistics.plan, "; "))},
-      {"plume:camera", fmt::format("position {} focal point {} view up {} view angle {} parallel "
-                                   "scale {}{}",
-                                   fmt::join(camera.position, ","),
-                                   fmt::join(camera.focal_point, ","),
-                                   fmt::join(camera.view_up, ","), camera.view_angle,
-                                   camera.parallel_scale, camera.parallel ? " (parallel)" : "")}};
+      {"plume:camera",
+       fmt::format("position {} focal point {} view up {} view angle {} parallel "
+                   "scale {}{}",
+                   fmt::join(camera.position, ","), fmt::join(camera.focal_point, ","),
+                   fmt::join(camera.view_up, ","), camera.view_angle, camera.parallel_scale,
+                   camera.parallel ? " (parallel)" : "")}};
   write_image(result.image, args.output, file_options);
   const double ms_write = watch.lap();
 
@@ -230,7 +233,7 @@ void run(const RenderArguments& args) {
         {"size", {size.width, size.height}},
         {"plan", statistics.plan},
         {"findings", to_json(scene.findings())}};
-    write_text_file(args.stats, stats.dump(2) + "\n");
+    write_whole_file(args.stats, stats.dump(2) + "\n");
   }
   console.say(fmt::format("{}: {} x {}, {} cells walked, {} rays lost, {:.0f} ms", args.output,
                           size.width, size.height, with_separators(statistics.cells_visited),

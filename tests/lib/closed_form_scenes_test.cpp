@@ -20,7 +20,7 @@ constexpr double kTau = 1.7;     // extinction per unit length
 constexpr std::array<float, 3> kColor{0.9f, 0.5f, 0.2f};
 
 const std::vector<std::string> kForms{"box-tetrahedra", "box-hexahedra", "box-mixed",
-                                      "box-polyhedra", "box-wedges", "two-blocks"};
+                                      "box-polyhedra",  "box-wedges",    "two-blocks"};
 
 TransferFunction uniform() { return {{{0, {kTau, kColor}}}}; }
 
@@ -108,25 +108,24 @@ TEST(ClosedFormScenes, RampOfExtinction) {
     const Camera camera = askew(scene.bounds());
     const RenderResult result = render(scene, camera, exact(96, 96));
     const Bounds& box = scene.bounds();
-    EXPECT_LE(worst(result, camera,
-                    [&](const Ray& ray) {
-                      const auto span = reference::box_span(box.low, box.high, ray.origin,
-                                                            ray.direction);
-                      auto extinction = [&](double t) {
-                        double s = 0;
-                        for (std::size_t a = 0; a < 3; ++a)
-                          s += (static_cast<double>(a) + 1) *
-                               (ray.origin[a] + t * ray.direction[a]);
-                        return 3 * (s - low) / (high - low);
-                      };
-                      const double length = std::max(0.0, span[1] - span[0]);
-                      const double depth =
-                          length > 0 ? 0.5 * (extinction(span[0]) + extinction(span[1])) * length : 0;
-                      const double alpha = -std::expm1(-depth);
-                      return std::array<double, 4>{alpha * kColor[0], alpha * kColor[1],
-                                                   alpha * kColor[2], alpha};
-                    }),
-              kBound);
+    EXPECT_LE(
+        worst(result, camera,
+              [&](const Ray& ray) {
+                const auto span = reference::box_span(box.low, box.high, ray.origin, ray.direction);
+                auto extinction = [&](double t) {
+                  double s = 0;
+                  for (std::size_t a = 0; a < 3; ++a)
+                    s += (static_cast<double>(a) + 1) * (ray.origin[a] + t * ray.direction[a]);
+                  return 3 * (s - low) / (high - low);
+                };
+                const double length = std::max(0.0, span[1] - span[0]);
+                const double depth =
+                    length > 0 ? 0.5 * (extinction(span[0]) + extinction(span[1])) * length : 0;
+                const double alpha = -std::expm1(-depth);
+                return std::array<double, 4>{alpha * kColor[0], alpha * kColor[1],
+                                             alpha * kColor[2], alpha};
+              }),
+        kBound);
   }
 }
 
@@ -144,23 +143,22 @@ TEST(ClosedFormScenes, RampThroughKnots) {
     const Camera camera = askew(scene.bounds());
     const RenderResult result = render(scene, camera, exact(32, 32));
     const Bounds& box = scene.bounds();
-    EXPECT_LE(worst(result, camera,
-                    [&](const Ray& ray) {
-                      const auto span = reference::box_span(box.low, box.high, ray.origin,
-                                                            ray.direction);
-                      if (!(span[1] > span[0])) return std::array<double, 4>{0, 0, 0, 0};
-                      auto scalar = [&](double t) {
-                        double s = 0;
-                        for (std::size_t a = 0; a < 3; ++a)
-                          s += (static_cast<double>(a) + 1) *
-                               (ray.origin[a] + t * ray.direction[a]);
-                        return static_cast<float>(s);
-                      };
-                      const auto c = reference::integrate_linear(
-                          bumpy, scalar(span[0]), scalar(span[1]), span[1] - span[0], 1e-9);
-                      return std::array<double, 4>{c.rgb[0], c.rgb[1], c.rgb[2], c.alpha};
-                    }),
-              kBound);
+    EXPECT_LE(
+        worst(result, camera,
+              [&](const Ray& ray) {
+                const auto span = reference::box_span(box.low, box.high, ray.origin, ray.direction);
+                if (!(span[1] > span[0])) return std::array<double, 4>{0, 0, 0, 0};
+                auto scalar = [&](double t) {
+                  double s = 0;
+                  for (std::size_t a = 0; a < 3; ++a)
+                    s += (static_cast<double>(a) + 1) * (ray.origin[a] + t * ray.direction[a]);
+                  return static_cast<float>(s);
+                };
+                const auto c = reference::integrate_linear(bumpy, scalar(span[0]), scalar(span[1]),
+                                                           span[1] - span[0], 1e-9);
+                return std::array<double, 4>{c.rgb[0], c.rgb[1], c.rgb[2], c.alpha};
+              }),
+        kBound);
   }
 }
 
@@ -209,8 +207,8 @@ TEST(Camera, InsideOfTheMeshSeesWhatLiesAhead) {
     const Bounds& box = scene.bounds();
     EXPECT_LE(worst(result, camera,
                     [&](const Ray& ray) {
-                      const auto span = reference::box_span(box.low, box.high, ray.origin,
-                                                            ray.direction);
+                      const auto span =
+                          reference::box_span(box.low, box.high, ray.origin, ray.direction);
                       return uniform_color(span[1]);
                     }),
               kBound);

@@ -26,9 +26,10 @@ std::string error_of(const Mesh& mesh) {
 TEST(CheckStructure, AcceptsASoundMesh) { EXPECT_EQ(error_of(two_tetrahedra()), "no error"); }
 
 TEST(CheckStructure, NamesThePointThatIsNotFinite) {
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
-                           -std::numeric_limits<double>::infinity()}) {
-    Mesh mesh = make_mesh(CellType::tetrahedron, {0, 0, 0, 1, 0, 0, 0, bad, 0, 0, 0, 1}, {0, 1, 2, 3});
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()}) {
+    Mesh mesh =
+        make_mesh(CellType::tetrahedron, {0, 0, 0, 1, 0, 0, 0, bad, 0, 0, 0, 1}, {0, 1, 2, 3});
     EXPECT_NE(error_of(mesh).find("point 2 is at (0, "), std::string::npos) << error_of(mesh);
   }
 }
@@ -36,10 +37,9 @@ TEST(CheckStructure, NamesThePointThatIsNotFinite) {
 TEST(CheckStructure, NamesTheCellWhoseIdsAreOutOfRange) {
   for (const std::int32_t bad : {5, -1}) {
     Mesh mesh = two_tetrahedra();
-    mesh.cells.connectivity =
-        Array::own(std::vector<std::int32_t>{0, 1, 2, 3, 4, 1, 3, bad});
-    EXPECT_EQ(error_of(mesh), "cell 1 refers to point " + std::to_string(bad) +
-                                  ", but the mesh has points 0 to 4");
+    mesh.cells.connectivity = Array::own(std::vector<std::int32_t>{0, 1, 2, 3, 4, 1, 3, bad});
+    EXPECT_EQ(error_of(mesh),
+              "cell 1 refers to point " + std::to_string(bad) + ", but the mesh has points 0 to 4");
   }
 }
 
@@ -79,10 +79,8 @@ TEST(CheckStructure, RefusesFacesBeyondTheStream) {
 
 TEST(FindPoorCells, NamesWhatIsInsideOutFlatOrRepeated) {
   // Cells 0 and 4 are sound, 1 is inside out, 2 flat, 3 has a point twice.
-  const Mesh mesh = make_mesh(
-      CellType::tetrahedron,
-      {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 0},
-      {0, 1, 2, 3, 0, 2, 1, 3, 0, 1, 2, 4, 0, 1, 1, 3, 1, 4, 2, 3});
+  const Mesh mesh = make_mesh(CellType::tetrahedron, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 0},
+                              {0, 1, 2, 3, 0, 2, 1, 3, 0, 1, 2, 4, 0, 1, 1, 3, 1, 4, 2, 3});
   const auto findings = find_poor_cells(mesh);
   ASSERT_EQ(findings.size(), 3u);
   EXPECT_EQ(describe(findings[0]), "1 cells inside out: 1");
@@ -91,8 +89,7 @@ TEST(FindPoorCells, NamesWhatIsInsideOutFlatOrRepeated) {
 }
 
 TEST(FindPoorCells, ALeftHandedMeshIsNotInsideOut) {
-  Mesh mesh = make_mesh(CellType::tetrahedron, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1},
-                        {0, 2, 1, 3});
+  Mesh mesh = make_mesh(CellType::tetrahedron, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 2, 1, 3});
   EXPECT_TRUE(find_poor_cells(mesh).empty());
 }
 

@@ -65,7 +65,8 @@ TEST(WalkableTets, CellsListedBackwardsAreTurnedAround) {
   std::size_t reversed = 0;
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
     std::int32_t cell[4];
-    for (std::size_t v = 0; v < 4; ++v) cell[v] = mesh.cells.connectivity.at<std::int32_t>(4 * c + v);
+    for (std::size_t v = 0; v < 4; ++v)
+      cell[v] = mesh.cells.connectivity.at<std::int32_t>(4 * c + v);
     if (c % 3 == 0) {
       std::swap(cell[1], cell[2]);
       ++reversed;
@@ -93,16 +94,15 @@ TEST(WalkableTets, ACellInsideOutIsNotTurned) {
   // Point 0 is pulled through the common face: the first cell is inside out, but both still agree
   // on who is on which side.
   Mesh mesh = two_tetrahedra();
-  mesh.points = Array::own(
-      std::vector<double>{0.4, 0.4, 0.4, 1, 0, 0, 0, 1, 0, 0, 0, 1, 3, 3, 3});
+  mesh.points = Array::own(std::vector<double>{0.4, 0.4, 0.4, 1, 0, 0, 0, 1, 0, 0, 0, 1, 3, 3, 3});
   const WalkableTets tets = tets_of(mesh);
   EXPECT_TRUE(tets.findings.empty());
 }
 
 TEST(WalkableTets, AFaceOfThreeCellsIsNamed) {
-  const Mesh mesh = make_mesh(CellType::tetrahedron,
-                              {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2},
-                              {0, 1, 2, 3, 4, 1, 3, 2, 5, 1, 3, 2});
+  const Mesh mesh =
+      make_mesh(CellType::tetrahedron, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2},
+                {0, 1, 2, 3, 4, 1, 3, 2, 5, 1, 3, 2});
   const WalkableTets tets = tets_of(mesh);
   ASSERT_EQ(tets.findings.size(), 1u);
   EXPECT_EQ(tets.findings[0].what, "faces shared by more than two cells");
@@ -111,8 +111,7 @@ TEST(WalkableTets, AFaceOfThreeCellsIsNamed) {
 
 TEST(WalkableTets, ACellWithARepeatedPointIsLeftOutAndItsNeighborsJoined) {
   // Between the two cells lies a third of no thickness: 1, 2, 3 and 3 again.
-  const Mesh mesh = make_mesh(CellType::tetrahedron,
-                              {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1},
+  const Mesh mesh = make_mesh(CellType::tetrahedron, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 1, 1, 1},
                               {0, 1, 2, 3, 1, 2, 3, 3, 4, 1, 3, 2});
   const WalkableTets tets = tets_of(mesh);
   ASSERT_EQ(tets.cells.size(), 2u);
@@ -198,7 +197,8 @@ TEST(HilbertKey, IsAPathThroughNeighbors) {
   for (int k = 0; k < 8; ++k)
     for (int j = 0; j < 8; ++j)
       for (int i = 0; i < 8; ++i)
-        places.push_back({(static_cast<float>(i) + 0.5f) / 4 - 1, (static_cast<float>(j) + 0.5f) / 4 - 1,
+        places.push_back({(static_cast<float>(i) + 0.5f) / 4 - 1,
+                          (static_cast<float>(j) + 0.5f) / 4 - 1,
                           (static_cast<float>(k) + 0.5f) / 4 - 1});
   const auto order = hilbert_order(places.size(), [&](std::size_t i) { return places[i]; });
   for (std::size_t i = 1; i < order.size(); ++i) {
@@ -221,8 +221,9 @@ TEST(LocalFrame, ScalesByPowersOfTwoAndKeepsDistantMeshes) {
 
 TEST(SelectField, TakesComponentsMagnitudesAndDefaults) {
   Mesh mesh = two_tetrahedra();
-  mesh.fields.push_back({"vel", Association::point, 3,
-                         Array::own(std::vector<float>{3, 4, 0, 0, 0, 1, 1, 2, 2, 0, 0, 0, 6, 0, 8})});
+  mesh.fields.push_back(
+      {"vel", Association::point, 3,
+       Array::own(std::vector<float>{3, 4, 0, 0, 0, 1, 1, 2, 2, 0, 0, 0, 6, 0, 8})});
   mesh.fields.push_back({"vel", Association::cell, 1, Array::own(std::vector<double>{5, 6})});
   EXPECT_EQ(select_field(mesh).name, "x");
   mesh.active_field = "vel";

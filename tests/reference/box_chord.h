@@ -8,8 +8,8 @@
 
 namespace plume::reference {
 
-/// Where the line origin + t * direction enters and leaves the box; empty (first above second) where
-/// it misses.
+/// Where the line origin + t * direction enters and leaves the box; empty (first above second)
+/// where it misses.
 inline std::array<double, 2> box_span(const std::array<double, 3>& low,
                                       const std::array<double, 3>& high,
                                       const std::array<double, 3>& origin,

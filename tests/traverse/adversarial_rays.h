@@ -22,10 +22,14 @@ class AdversarialRays {
   /// middle, or along an axis through a vertex, in turn.
   Ray operator()(std::uint64_t i) {
     switch (i % 6 < 4 ? 0 : 1 + (i / 6 * 2 + i % 6) % 3) {
-      case 1: return towards(random_origin(), random_vertex());
-      case 2: return towards(random_origin(), random_edge_middle());
-      case 3: return along_axis(random_vertex());
-      default: return towards(random_origin(), random_inside());
+      case 1:
+        return towards(random_origin(), random_vertex());
+      case 2:
+        return towards(random_origin(), random_edge_middle());
+      case 3:
+        return along_axis(random_vertex());
+      default:
+        return towards(random_origin(), random_inside());
     }
   }
 

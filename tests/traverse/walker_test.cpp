@@ -129,9 +129,9 @@ struct Case {
   double jitter, scale, offset;
 };
 // Inverted: points moved by up to three cell edges. Shifted: where single precision has one digit.
-const Case kCases[] = {{"clean", 0.0, 1, 0},       {"jittered", 0.2, 1, 0},
-                       {"inverted", 3.0, 1, 0},    {"shifted", 0.2, 1, 1e7},
-                       {"tiny", 0.2, 1e-9, 0},     {"huge and inverted", 3.0, 1e9, 1e9}};
+const Case kCases[] = {{"clean", 0.0, 1, 0},    {"jittered", 0.2, 1, 0},
+                       {"inverted", 3.0, 1, 0}, {"shifted", 0.2, 1, 1e7},
+                       {"tiny", 0.2, 1e-9, 0},  {"huge and inverted", 3.0, 1e9, 1e9}};
 
 Mesh box(const std::string& name, const Case& c) {
   return moved(generate(name, {12, c.jitter, 7}), c.scale, c.offset);
@@ -227,9 +227,9 @@ TEST(Walkers, SeeALinearFieldAsItIs) {
     const char* name;
     bool grid;
   };
-  for (const Form& form : {Form{"box-tetrahedra", false}, Form{"box-hexahedra", true},
-                           Form{"box-mixed", false}, Form{"box-polyhedra", false},
-                           Form{"box-wedges", false}}) {
+  for (const Form& form :
+       {Form{"box-tetrahedra", false}, Form{"box-hexahedra", true}, Form{"box-mixed", false},
+        Form{"box-polyhedra", false}, Form{"box-wedges", false}}) {
     SCOPED_TRACE(form.name);
     Mesh mesh = generate(form.name, {6, 0.2, 2});
     mesh.active_field = "linear";
@@ -239,7 +239,8 @@ TEST(Walkers, SeeALinearFieldAsItIs) {
         const Ray ray = make_ray(i);
         for (const Segment& s : traced(ray).segments) {
           auto field = [&](double t) {
-            return ray.origin[0] + t * ray.direction[0] + 2 * (ray.origin[1] + t * ray.direction[1]) +
+            return ray.origin[0] + t * ray.direction[0] +
+                   2 * (ray.origin[1] + t * ray.direction[1]) +
                    3 * (ray.origin[2] + t * ray.direction[2]);
           };
           ASSERT_NEAR(s.s_in, field(s.t_in), 1e-5) << "ray " << i;
@@ -247,9 +248,12 @@ TEST(Walkers, SeeALinearFieldAsItIs) {
         }
       }
     };
-    if (form.grid) check(trace_as_grid(mesh));
-    else if (std::string(form.name) == "box-tetrahedra") check(trace_as_tets(mesh));
-    else check(trace_as_cells(mesh));
+    if (form.grid)
+      check(trace_as_grid(mesh));
+    else if (std::string(form.name) == "box-tetrahedra")
+      check(trace_as_tets(mesh));
+    else
+      check(trace_as_cells(mesh));
   }
 }
 
