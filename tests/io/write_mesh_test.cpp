@@ -202,10 +202,10 @@ TEST_F(MeshFile, RefusesWhatItCannotWrite) {
             std::string::npos);
   EXPECT_NE(write_error(one_of_each(), path("a.vts")).find("a.vts: .vts holds a structured grid"),
             std::string::npos);
-  EXPECT_NE(write_error(grid(), path("no/such/a.vtu")).find("there is no directory"),
+  EXPECT_NE(write_error(grid(), path("no/such/a.vtu")).find("there is no folder"),
             std::string::npos);
   std::filesystem::create_directory(path("d.vtu"));
-  EXPECT_NE(write_error(grid(), path("d.vtu")).find("is a directory"), std::string::npos);
+  EXPECT_NE(write_error(grid(), path("d.vtu")).find("is a folder"), std::string::npos);
 }
 
 }  // namespace
