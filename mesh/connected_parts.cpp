@@ -35,8 +35,8 @@ class Sets {
 std::size_t connected_parts(const WalkableTets& mesh) {
   Sets sets(mesh.cells.size());
   for (std::uint32_t c = 0; c < mesh.cells.size(); ++c)
-    for (const std::uint32_t neighbor : mesh.cells[c].neighbors)
-      if (neighbor != kNone) sets.join(c, neighbor);
+    for (const WalkableTets::Link& link : mesh.cells[c])
+      if (link.cell != kNone) sets.join(c, link.cell);
   return sets.count();
 }
 

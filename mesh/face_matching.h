@@ -16,6 +16,12 @@ namespace plume {
 /// Absence of a cell, a face or a point.
 inline constexpr std::uint32_t kNone = 0xFFFFFFFFu;
 
+/// A face of the boundary: a cell and the number of its face.
+struct BoundaryFace {
+  std::uint32_t cell;
+  std::uint32_t face;
+};
+
 /// Finds the pairs of equal faces among `slots` faces of cells.
 ///
 /// `key(slot)` gives a face's three smallest point ids in ascending order, the first kNone for a

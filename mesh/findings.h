@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -20,11 +19,5 @@ std::string describe(const Finding& finding);
 
 /// Adds a cell to a finding, keeping the smallest few numbers as examples.
 void add_example(Finding& finding, std::size_t cell);
-
-/// A face of the boundary: a cell and the number of its face.
-struct BoundaryFace {
-  std::uint32_t cell;
-  std::uint32_t face;
-};
 
 }  // namespace plume

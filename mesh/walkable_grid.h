@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "plume/mesh/face_matching.h"
 #include "plume/mesh/findings.h"
 #include "plume/mesh/local_frame.h"
 #include "plume/mesh/mesh.h"

@@ -15,11 +15,23 @@ namespace plume {
 
 /// Immutable, compact, ordered along a Hilbert curve; safe to read from any number of threads. 32
 /// bytes a cell, 16 a point.
+///
+/// A cell does not store its points. Who comes in through a face knows three of them, and the link
+/// that was followed brought the fourth, the apex. So the next point and the next cell are fetched
+/// at once, and the number of the face left is the rank of the point that it leaves out.
 struct WalkableTets {
-  struct Cell {
-    std::array<std::uint32_t, 4> points;
-    /// neighbors[i] shares the face opposite to points[i]; kNone at the boundary.
-    std::array<std::uint32_t, 4> neighbors;
+  struct Link {
+    std::uint32_t cell;  ///< the neighbour, kNone at the boundary
+    std::uint32_t apex;  ///< the neighbour's point opposite to the common face
+  };
+  /// links[r] leads across the face that leaves out the cell's point of rank r: of its four points,
+  /// the one that r others are smaller than, by number.
+  using Cell = std::array<Link, 4>;
+  /// A face without a neighbour.
+  struct Boundary {
+    std::uint32_t cell;
+    std::uint32_t apex;                 ///< the cell's point opposite to the face
+    std::array<std::uint32_t, 3> loop;  ///< the face's points, seen from outside
   };
 
   LocalFrame frame;
@@ -29,8 +41,7 @@ struct WalkableTets {
   std::vector<float> cell_values;
   /// Number of each cell in the user's mesh; empty unless asked for.
   std::vector<std::uint32_t> original_cells;
-  /// Every face without a neighbour. The face's number is that of the point opposite to it.
-  std::vector<BoundaryFace> boundary;
+  std::vector<Boundary> boundary;
   std::vector<Finding> findings;
 
   std::size_t cell_count() const { return cells.size(); }

@@ -19,9 +19,9 @@ namespace {
 // is 2^-17. Wider boxes cost time, never a decision.
 constexpr float kMargin = 7.62939453125e-06f;
 
-void face_points(const WalkableTets& mesh, BoundaryFace face, std::vector<std::uint32_t>& ids) {
-  for (const int i : kTetrahedronFaces[face.face])
-    ids.push_back(mesh.cells[face.cell].points[static_cast<std::size_t>(i)]);
+void face_points(const WalkableTets&, const WalkableTets::Boundary& face,
+                 std::vector<std::uint32_t>& ids) {
+  ids.assign(face.loop.begin(), face.loop.end());
 }
 
 void face_points(const WalkableGrid& mesh, BoundaryFace face, std::vector<std::uint32_t>& ids) {
@@ -80,7 +80,7 @@ void face_intersect(const RTCIntersectFunctionNArguments* args) {
   if (args->valid[0] == 0) return;
   auto& query = *reinterpret_cast<Query<Walker>*>(args->context);
   const auto& mesh = *static_cast<const typename Walker::Mesh*>(args->geometryUserPtr);
-  const BoundaryFace face = mesh.boundary[args->primID];
+  const auto& face = mesh.boundary[args->primID];
   const int winding = query.walker->boundary_winding(face);
   const int ways_in = -winding * query.frame->sign();
   if (ways_in <= 0) return;

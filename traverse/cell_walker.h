@@ -18,16 +18,17 @@ namespace plume {
 class CellWalker {
  public:
   using Mesh = WalkableCells;
+  using Boundary = BoundaryFace;
 
   CellWalker(const WalkableCells& mesh, const ShearedFrame& frame) : mesh_(mesh), frame_(frame) {}
 
-  int boundary_winding(BoundaryFace boundary) const { return winding(boundary.face); }
+  int boundary_winding(const Boundary& boundary) const { return winding(boundary.face); }
 
-  Crossing measure_boundary(BoundaryFace boundary, int outward_winding) const {
+  Crossing measure_boundary(const Boundary& boundary, int outward_winding) const {
     return measure(boundary.face, outward_winding);
   }
 
-  void enter(BoundaryFace boundary, std::uint32_t rank) {
+  void enter(const Boundary& boundary, std::uint32_t rank) {
     cell_ = boundary.cell;
     face_ = boundary.face;
     rank_ = rank;

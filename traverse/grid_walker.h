@@ -19,24 +19,25 @@ namespace plume {
 class GridWalker {
  public:
   using Mesh = WalkableGrid;
+  using Boundary = BoundaryFace;
 
   GridWalker(const WalkableGrid& mesh, const ShearedFrame& frame) : mesh_(mesh), frame_(frame) {
     const std::uint32_t ni = mesh.dimensions[0], nij = ni * mesh.dimensions[1];
     step_ = {0, 1, ni, 1 + ni, nij, 1 + nij, ni + nij, 1 + ni + nij};
   }
 
-  int boundary_winding(BoundaryFace boundary) const {
+  int boundary_winding(const Boundary& boundary) const {
     const auto loop = face_loop(boundary);
     return outward(boundary.face, winding(loop));
   }
 
-  Crossing measure_boundary(BoundaryFace boundary, int outward_winding) const {
+  Crossing measure_boundary(const Boundary& boundary, int outward_winding) const {
     const auto loop = face_loop(boundary);
     return measure_patch(loop[0], loop[1], loop[2], loop[3],
                          outward(boundary.face, outward_winding));
   }
 
-  void enter(BoundaryFace boundary, std::uint32_t rank) {
+  void enter(const Boundary& boundary, std::uint32_t rank) {
     cell_ = boundary.cell;
     face_ = boundary.face;
     rank_ = rank;
@@ -102,7 +103,7 @@ class GridWalker {
     return (face % 2 == 1) != mesh_.left_handed ? w : -w;
   }
 
-  std::array<ShearedPoint, 4> face_loop(BoundaryFace boundary) const {
+  std::array<ShearedPoint, 4> face_loop(const Boundary& boundary) const {
     const std::uint32_t first = mesh_.first_point(boundary.cell);
     std::array<ShearedPoint, 4> loop;
     for (std::size_t i = 0; i < 4; ++i)

@@ -10,7 +10,6 @@
 #include <optional>
 #include <utility>
 
-#include "plume/mesh/cell_faces.h"
 #include "plume/mesh/walkable_tets.h"
 #include "plume/traverse/measure.h"
 
@@ -19,59 +18,77 @@ namespace plume {
 class TetWalker {
  public:
   using Mesh = WalkableTets;
+  using Boundary = WalkableTets::Boundary;
 
   TetWalker(const WalkableTets& mesh, const ShearedFrame& frame) : mesh_(mesh), frame_(frame) {}
 
   /// The winding of a boundary face about the ray, seen from outside.
-  int boundary_winding(BoundaryFace boundary) const {
-    const auto t = triangle(boundary);
+  int boundary_winding(const Boundary& face) const {
+    const auto t = triangle(face);
     return crossing(t[0].at, t[1].at) + crossing(t[1].at, t[2].at) + crossing(t[2].at, t[0].at);
   }
 
   /// Where the ray crosses a boundary face of that winding.
-  Crossing measure_boundary(BoundaryFace boundary, int winding) const {
-    const auto t = triangle(boundary);
+  Crossing measure_boundary(const Boundary& face, int winding) const {
+    const auto t = triangle(face);
     return measure_triangle(t[0].at, t[1].at, t[2].at, winding);
   }
 
   /// Starts at a boundary face that winds about the ray.
-  void enter(BoundaryFace boundary, std::uint32_t /*rank*/) {
-    cell_ = boundary.cell;
-    corner_ = triangle(boundary);
-    if (boundary_winding(boundary) < 0) std::swap(corner_[1], corner_[2]);
-    for (std::size_t i = 0; i < 3; ++i)
-      edge_[i] = crossing(corner_[(i + 1) % 3].at, corner_[(i + 2) % 3].at);
+  void enter(const Boundary& face, std::uint32_t /*rank*/) {
+    next_ = {face.cell, face.apex};
+    auto t = triangle(face);
+    if (boundary_winding(face) < 0) std::swap(t[1], t[2]);
+    // Of a triangle that winds once, one edge counts, and that one once.
+    std::size_t first = 0;
+    while (crossing(t[first].at, t[(first + 1) % 3].at) == 0) ++first;
+    low_ = t[first];
+    high_ = t[(first + 1) % 3];
+    third_ = t[(first + 2) % 3];
+    cell_ = next_.cell;
   }
 
   std::uint32_t cell() const { return cell_; }
 
-  /// Where the ray leaves the current cell. The triangle through which it came winds once about the
-  /// ray; the three faces around the fourth point have the same boundary, so their windings sum to
-  /// one: one of them is the way out, and the triangle by which the next cell is entered.
+  /// Where the ray leaves the current cell.
+  ///
+  /// The triangle by which it came in winds once about the ray: the edge from low to high crosses
+  /// on the right, and the edge that comes down again, past the third corner, on the left. The
+  /// apex is joined to the end of the first edge that lies across from it, and if that edge crosses
+  /// on the right as well, it is the new first edge, unless the one to the third corner is. So two
+  /// tests tell which of the three faces around the apex winds once: the way out, and the triangle
+  /// by which the next cell is entered.
   std::optional<Crossing> leave() {
-    const auto& cell = mesh_.cells[cell_];
-    const std::uint32_t id = cell.points[0] ^ cell.points[1] ^ cell.points[2] ^ cell.points[3] ^
-                             corner_[0].id ^ corner_[1].id ^ corner_[2].id;
-    const Corner apex{id, frame_(mesh_.points[id])};
-    std::array<int, 3> to_apex, winding;  // winding[i]: of the face that leaves out corner i
-    for (std::size_t i = 0; i < 3; ++i) to_apex[i] = crossing(corner_[i].at, apex.at);
-    for (std::size_t i = 0; i < 3; ++i)
-      winding[i] = edge_[i] + to_apex[(i + 2) % 3] - to_apex[(i + 1) % 3];
+    const Corner apex{next_.apex, frame_(mesh_.points[next_.apex])};
+    const bool up = apex.at.up();
+    Corner& across = up ? low_ : high_;  // its edge to the apex may cross
+    Corner& beside = up ? high_ : low_;  // its edge to the apex does not
+    bool first = crossing(across.at, apex.at) != 0;
+    const bool second = crossing(third_.at, apex.at) != 0;
+    // Rounding may let all four faces wind about the ray: two ways in and two out. Faces are known
+    // by the point that they leave out; the way in with the smaller point goes with the way out
+    // with the smaller one, which is one-to-one and the same whichever way in we came by.
+    if (!first && second) first = (apex.id < beside.id) == (across.id < third_.id);
 
-    std::size_t behind = winding[0] > 0 ? 0 : winding[1] > 0 ? 1 : 2;
-    if (winding[0] < 0 || winding[1] < 0 || winding[2] < 0) behind = paired(winding, id);
-    const std::size_t next = (behind + 1) % 3, last = (behind + 2) % 3;
-    for (std::size_t i = 0; i < 4; ++i)
-      if (cell.points[i] == corner_[behind].id) next_ = cell.neighbors[i];
-    corner_[behind] = apex;
-    edge_[next] = to_apex[last];
-    edge_[last] = -to_apex[next];
-    return measure_triangle(corner_[0].at, corner_[1].at, corner_[2].at, 1);
+    Corner behind;  // the corner that the face left through leaves out
+    if (!first) {
+      behind = std::exchange(third_, apex);
+    } else if (second) {
+      behind = std::exchange(across, third_);
+      third_ = std::exchange(beside, apex);
+    } else {
+      behind = std::exchange(beside, apex);
+    }
+    const std::size_t rank = static_cast<std::size_t>(low_.id < behind.id) +
+                             static_cast<std::size_t>(high_.id < behind.id) +
+                             static_cast<std::size_t>(third_.id < behind.id);
+    next_ = mesh_.cells[cell_][rank];
+    return measure_triangle(low_.at, high_.at, third_.at, 1);
   }
 
   /// Into the cell behind the face left through; false at the boundary.
   bool advance() {
-    cell_ = next_;
+    cell_ = next_.cell;
     return cell_ != kNone;
   }
 
@@ -81,34 +98,20 @@ class TetWalker {
     ShearedPoint at;
   };
 
-  std::array<Corner, 3> triangle(BoundaryFace boundary) const {
+  std::array<Corner, 3> triangle(const Boundary& face) const {
     std::array<Corner, 3> corners;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto local = static_cast<std::size_t>(kTetrahedronFaces[boundary.face][i]);
-      const std::uint32_t id = mesh_.cells[boundary.cell].points[local];
-      corners[i] = {id, frame_(mesh_.points[id])};
-    }
+    for (std::size_t i = 0; i < 3; ++i)
+      corners[i] = {face.loop[i], frame_(mesh_.points[face.loop[i]])};
     return corners;
-  }
-
-  // Rounding may let all four faces wind about the ray: two ways in and two out. Faces are known by
-  // the point that they leave out. The way in with the smaller point goes with the way out with the
-  // smaller one: one-to-one, and the same whichever way in we came by.
-  std::size_t paired(const std::array<int, 3>& winding, std::uint32_t apex) const {
-    const std::size_t in = winding[0] < 0 ? 0 : winding[1] < 0 ? 1 : 2;
-    std::size_t smaller = (in + 1) % 3, larger = (in + 2) % 3;
-    if (corner_[larger].id < corner_[smaller].id) std::swap(smaller, larger);
-    return apex < corner_[in].id ? smaller : larger;
   }
 
   const WalkableTets& mesh_;
   const ShearedFrame& frame_;
   std::uint32_t cell_ = kNone;
-  std::uint32_t next_ = kNone;
-  // The triangle by which the ray came into the cell; edge_[i] is what its edge opposite to corner
-  // i adds to its winding of one.
-  std::array<Corner, 3> corner_{};
-  std::array<int, 3> edge_{};
+  WalkableTets::Link next_{kNone, 0};
+  // The triangle by which the ray came into the cell: low is down, high is up, and the edge between
+  // them crosses on the ray's right.
+  Corner low_{}, high_{}, third_{};
 };
 
 }  // namespace plume

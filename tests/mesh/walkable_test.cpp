@@ -31,32 +31,86 @@ TEST(WalkableTets, TakeThirtyTwoBytesACellAndSixteenAPoint) {
   const WalkableTets tets =
       make_walkable_tets(mesh, select_field(mesh), check_structure(mesh), false);
   EXPECT_EQ(tets.bytes(), 32 * mesh.cell_count() + 16 * mesh.point_count() +
-                              sizeof(BoundaryFace) * tets.boundary.size());
+                              sizeof(WalkableTets::Boundary) * tets.boundary.size());
 }
 
-TEST(WalkableTets, NeighborsShareTheirFace) {
+// The points of every cell, which the walkable form does not store: found by following the links
+// from the boundary. Fails where two ways to a cell disagree.
+std::vector<std::set<std::uint32_t>> points_of_cells(const WalkableTets& tets) {
+  std::vector<std::set<std::uint32_t>> points(tets.cells.size());
+  std::vector<std::uint32_t> open;
+  auto reach = [&](std::uint32_t cell, const std::set<std::uint32_t>& four) {
+    EXPECT_EQ(four.size(), 4u) << "cell " << cell;
+    if (points[cell].empty())
+      open.push_back(cell);
+    else
+      EXPECT_EQ(points[cell], four) << "cell " << cell;
+    points[cell] = four;
+  };
+  for (const auto& face : tets.boundary)
+    reach(face.cell, {face.apex, face.loop[0], face.loop[1], face.loop[2]});
+  while (!open.empty()) {
+    const std::uint32_t cell = open.back();
+    open.pop_back();
+    std::size_t rank = 0;
+    for (const std::uint32_t left_out : points[cell]) {
+      const WalkableTets::Link link = tets.cells[cell][rank++];
+      if (link.cell == kNone) continue;
+      std::set<std::uint32_t> four = points[cell];
+      four.erase(left_out);
+      four.insert(link.apex);
+      reach(link.cell, four);
+    }
+  }
+  return points;
+}
+
+TEST(WalkableTets, LinksLeadToTheNeighborsAndBack) {
   const Mesh mesh = generate("box-tetrahedra", {6, 0.2, 1});
   const WalkableTets tets = tets_of(mesh);
   ASSERT_EQ(tets.cells.size(), mesh.cell_count());
+  const auto points = points_of_cells(tets);
   std::size_t boundary = 0;
-  for (std::uint32_t c = 0; c < tets.cells.size(); ++c)
-    for (std::size_t f = 0; f < 4; ++f) {
-      const std::uint32_t n = tets.cells[c].neighbors[f];
-      if (n == kNone) {
+  for (std::uint32_t c = 0; c < tets.cells.size(); ++c) {
+    ASSERT_EQ(points[c].size(), 4u) << "cell " << c;
+    for (const WalkableTets::Link& link : tets.cells[c]) {
+      if (link.cell == kNone) {
         ++boundary;
         continue;
       }
-      std::set<std::uint32_t> mine(tets.cells[c].points.begin(), tets.cells[c].points.end());
-      mine.erase(tets.cells[c].points[f]);
-      for (const std::uint32_t p : tets.cells[n].points) mine.erase(p);
-      EXPECT_TRUE(mine.empty()) << "cell " << c << " face " << f;
-      const auto& back = tets.cells[n].neighbors;
-      EXPECT_NE(std::find(back.begin(), back.end(), c), back.end());
+      EXPECT_TRUE(std::any_of(tets.cells[link.cell].begin(), tets.cells[link.cell].end(),
+                              [c](const WalkableTets::Link& back) { return back.cell == c; }));
     }
+    // The same cell of the user's mesh, point by point.
+    std::multiset<float> mine, theirs;
+    const float scale = static_cast<float>(tets.frame.scale);
+    for (const std::uint32_t p : points[c])
+      mine.insert(tets.points[p].position[0] / scale + static_cast<float>(tets.frame.center[0]));
+    for (std::size_t v = 0; v < 4; ++v)
+      theirs.insert(mesh.points.at<float>(
+          3 * mesh.cells.connectivity.at<std::size_t>(4 * tets.original_cell(c) + v)));
+    auto other = theirs.begin();
+    for (const float x : mine) EXPECT_NEAR(x, *other++, 1e-6) << "cell " << c;
+  }
   EXPECT_EQ(boundary, 6u * 6 * 6 * 2);
   EXPECT_EQ(tets.boundary.size(), boundary);
   EXPECT_EQ(connected_parts(tets), 1u);
   EXPECT_TRUE(tets.findings.empty());
+}
+
+// Six times the volume that the boundary encloses, in local coordinates.
+double enclosed(const WalkableTets& tets) {
+  double sum = 0;
+  for (const auto& face : tets.boundary) {
+    double p[3][3];
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t a = 0; a < 3; ++a)
+        p[i][a] = static_cast<double>(tets.points[face.loop[i]].position[a]);
+    sum += p[0][0] * (p[1][1] * p[2][2] - p[1][2] * p[2][1]) +
+           p[0][1] * (p[1][2] * p[2][0] - p[1][0] * p[2][2]) +
+           p[0][2] * (p[1][0] * p[2][1] - p[1][1] * p[2][0]);
+  }
+  return sum;
 }
 
 TEST(WalkableTets, CellsListedBackwardsAreTurnedAround) {
@@ -77,17 +131,13 @@ TEST(WalkableTets, CellsListedBackwardsAreTurnedAround) {
   const WalkableTets tets = tets_of(mesh);
   ASSERT_EQ(tets.findings.size(), 1u);
   EXPECT_EQ(tets.findings[0].count, reversed);
-  for (const auto& cell : tets.cells) {  // all of positive volume again
-    double e[3][3];
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t a = 0; a < 3; ++a)
-        e[i][a] = static_cast<double>(tets.points[cell.points[i + 1]].position[a]) -
-                  tets.points[cell.points[0]].position[a];
-    EXPECT_GT(e[0][0] * (e[1][1] * e[2][2] - e[1][2] * e[2][1]) +
-                  e[0][1] * (e[1][2] * e[2][0] - e[1][0] * e[2][2]) +
-                  e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0]),
-              0);
-  }
+  EXPECT_NEAR(enclosed(tets) / 6, std::pow(tets.frame.scale, 3), 1e-5);
+}
+
+TEST(WalkableTets, ALeftHandedMeshIsTurnedAround) {
+  const Mesh mesh =
+      make_mesh(CellType::tetrahedron, {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 2, 1, 3});
+  EXPECT_GT(enclosed(tets_of(mesh)), 0);
 }
 
 TEST(WalkableTets, ACellInsideOutIsNotTurned) {
