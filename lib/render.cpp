@@ -13,10 +13,13 @@
 #include <limits>
 #include <mutex>
 #include <optional>
+#include <type_traits>
 
+#include "plume/lib/packet_tile.h"
 #include "plume/lib/pixel.h"
 #include "plume/lib/scene_body.h"
 #include "plume/mesh/error.h"
+#include "plume/traverse/tet_packets.h"
 
 namespace plume {
 namespace {
@@ -90,6 +93,42 @@ class Frame {
             static_cast<std::size_t>(x);
         counts.add(render_pixel(walkable, integrator, rays_(x + 0.5, y + 0.5), index));
       }
+  }
+
+  // The same for tetrahedra by packets of rays; those that packets decline are left to the twin.
+  template <class Integrator>
+  void render_tile(const Walkable<TetWalker>& walkable, const Integrator& integrator,
+                   PacketTile& packets, int tile_x, int tile_y, Counts& counts) {
+    const int end_x = std::min(tile_x + kTile, settings_.width);
+    const int end_y = std::min(tile_y + kTile, settings_.height);
+    packets.clear();
+    for (int y = tile_y; y < end_y; ++y)
+      for (int x = tile_x; x < end_x; ++x) packets.add(rays_(x + 0.5, y + 0.5));
+    packets.composite();
+    std::size_t ray = 0;
+    for (int y = tile_y; y < end_y; ++y)
+      for (int x = tile_x; x < end_x; ++x) {
+        const std::size_t index =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(settings_.width) +
+            static_cast<std::size_t>(x);
+        const PacketTile::Result result = packets.result(ray++);
+        if (result.declined) {
+          counts.add(render_pixel(walkable, integrator, rays_(x + 0.5, y + 0.5), index));
+          continue;
+        }
+        counts.add(result.trace);
+        float* rgba = &image_.rgba[4 * index];
+        rgba[0] = result.color.r;
+        rgba[1] = result.color.g;
+        rgba[2] = result.color.b;
+        rgba[3] = 1 - result.color.transmittance;
+      }
+  }
+
+  // Whether packets can render this frame: tetrahedra, volume, closed form, nothing besides.
+  bool by_packets() const {
+    return !settings_.scalar_twin && settings_.mode == Mode::volume &&
+           settings_.integrator.kind == IntegratorKind::closed_form && settings_.channels.empty();
   }
 
   // Modes whose shades depend on the whole picture's range.
@@ -269,6 +308,11 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   Frame frame(scene, camera, effective);
   RenderResult result;
   result.statistics.plan = describe_plan(scene, settings);
+  if (std::string(scene.form()) == "tetrahedra")
+    result.statistics.plan.push_back(
+        frame.by_packets() ? fmt::format("rays: in packets, {}", packet_instruction_set())
+                           : "rays: one by one (packets serve the volume mode by the closed form, "
+                             "without further channels)");
   if (frame.whole_rays() && settings.mode == Mode::volume) {
     effective.early_termination = 0;
     result.statistics.plan.push_back("early termination: off, as a channel needs whole rays");
@@ -281,23 +325,40 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   const int tiles_y = (settings.height + kTile - 1) / kTile;
   ProgressReport report(progress, tiles_x * tiles_y);
   tbb::enumerable_thread_specific<Counts> counts;
+  const PieceTable pieces(scene.transfer_function());
   // A table is built only where the picture needs what is in it: colours.
   if (settings.mode != Mode::volume) effective.integrator.kind = IntegratorKind::closed_form;
   const Integrator integrator = make_integrator(scene.transfer_function(), effective.integrator);
   const int available = tbb::this_task_arena::max_concurrency();
   tbb::task_arena arena(settings.threads > 0 ? std::min(settings.threads, available) : available);
+  auto for_each_tile = [&](const auto& body) {
+    arena.execute([&] {
+      tbb::parallel_for(tbb::blocked_range<int>(0, tiles_x * tiles_y, 1), [&](const auto& range) {
+        for (int tile = range.begin(); tile != range.end(); ++tile) {
+          if (report.cancelled()) return;
+          body(tile % tiles_x * kTile, tile / tiles_x * kTile);
+          report.tile_done();
+        }
+      });
+    });
+  };
   std::visit(
       [&](const auto& walkable, const auto& chosen) {
-        arena.execute([&] {
-          tbb::parallel_for(tbb::blocked_range<int>(0, tiles_x * tiles_y, 1),
-                            [&](const auto& range) {
-                              for (int tile = range.begin(); tile != range.end(); ++tile) {
-                                if (report.cancelled()) return;
-                                frame.render_tile(*walkable, chosen, tile % tiles_x * kTile,
-                                                  tile / tiles_x * kTile, counts.local());
-                                report.tile_done();
-                              }
-                            });
+        using Form = typename std::decay_t<decltype(*walkable)>::Walker;
+        if constexpr (std::is_same_v<Form, TetWalker>) {
+          if (frame.by_packets()) {
+            tbb::enumerable_thread_specific<PacketTile> packets([&] {
+              return PacketTile(walkable->mesh, walkable->boundary, pieces,
+                                static_cast<float>(effective.early_termination));
+            });
+            for_each_tile([&](int x, int y) {
+              frame.render_tile(*walkable, chosen, packets.local(), x, y, counts.local());
+            });
+            return;
+          }
+        }
+        for_each_tile([&](int x, int y) {
+          frame.render_tile(*walkable, chosen, x, y, counts.local());
         });
       },
       scene.body().walkable, integrator);

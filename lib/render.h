@@ -38,6 +38,9 @@ struct RenderSettings {
   double early_termination = 1e-4;
   /// Threads to use, at most those there are; 0 for all. The picture is the same for any number.
   int threads = 0;
+  /// Walk ray by ray in plain scalar code where packets of rays would do: for comparison. The two
+  /// take the same way through the mesh, and their pictures differ by less than 1e-5.
+  bool scalar_twin = false;
   /// Further channels: "depth", "optical_depth", "cell_id", "cell_count". The last two but one and
   /// the last need the whole ray, so early termination is off where one of them is asked for.
   std::vector<std::string> channels;

@@ -86,6 +86,16 @@ class ShearedFrame {
   /// outside, is left through where w * sign() > 0 and entered where w * sign() < 0.
   int sign() const { return sign_; }
 
+  /// The axis that is z, 0 to 2.
+  int axis() const { return static_cast<int>(z_); }
+  /// World length per unit of z along the ray; negative where z falls.
+  double t_per_z() const { return t_per_z_; }
+  /// What the shear does to x and y: x - offset_x - slope_x * z.
+  struct Line {
+    float slope_x = 0, slope_y = 0, offset_x = 0, offset_y = 0;
+  };
+  Line line() const { return {slope_x_, slope_y_, offset_x_, offset_y_}; }
+
   /// The ray's line for a ray tracer, in local coordinates: a point outside of the mesh, from
   /// which the direction (of length one along z) leads through all of it.
   static constexpr float kStart = 4;

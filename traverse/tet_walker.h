@@ -12,6 +12,7 @@
 
 #include "plume/mesh/walkable_tets.h"
 #include "plume/traverse/measure.h"
+#include "plume/traverse/packet_start.h"
 
 namespace plume {
 
@@ -46,6 +47,19 @@ class TetWalker {
     high_ = t[(first + 1) % 3];
     third_ = t[(first + 2) % 3];
     cell_ = next_.cell;
+  }
+
+  /// The same for a lane of a packet; enter() must have been called.
+  PacketStart packet_start(const Crossing& place, std::uint32_t ray) const {
+    return {{low_.at, high_.at, third_.at},
+            {low_.id, high_.id, third_.id},
+            next_.cell,
+            next_.apex,
+            frame_.line(),
+            static_cast<float>(place.z),
+            place.scalar,
+            static_cast<float>(frame_.t_per_z()),
+            ray};
   }
 
   std::uint32_t cell() const { return cell_; }

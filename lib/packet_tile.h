@@ -1,0 +1,64 @@
+/// A tile of a picture of tetrahedra, its rays walked by packets.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "plume/lib/volume_packets.h"
+#include "plume/traverse/boundary.h"
+#include "plume/traverse/segment.h"
+
+namespace plume {
+
+/// Rays of a tile: added one by one, then composited together. Reused from tile to tile.
+///
+/// Packets walk a ray from entry to entry, each passage whole. A ray that starts inside of the mesh,
+/// or one of whose passages begins before the last one ended (parts that overlap), needs its
+/// segments cut: such rays are left to trace(), and `colors` has nothing for them.
+class PacketTile {
+ public:
+  PacketTile(const WalkableTets& mesh, const BoundaryIndex<TetWalker>& boundary,
+             const PieceTable& table, float early_termination)
+      : mesh_(mesh), boundary_(boundary), table_(table), early_termination_(early_termination) {}
+
+  void clear() { rays_.clear(); }
+  void add(const Ray& ray);
+  void composite();
+
+  struct Result {
+    PacketColor color;
+    TraceResult trace;
+    /// The ray is left to trace().
+    bool declined = false;
+  };
+  Result result(std::size_t ray) const {
+    return {colors_[ray],
+            {rays_[ray].entries > 0 && colors_[ray].opaque ? WalkEnd::stopped : WalkEnd::left,
+             rays_[ray].entries, colors_[ray].cells},
+            rays_[ray].declined};
+  }
+
+ private:
+  struct TileRay {
+    ShearedFrame frame;
+    Entry entry;
+    PacketStart start;
+    std::uint32_t entries = 0;
+    bool declined = false;
+    bool waiting = false;  // has an entry that was not walked yet
+  };
+  class Feeder;
+
+  bool prepare(std::size_t ray, const std::optional<Entry>& entry, double seen_until);
+
+  const WalkableTets& mesh_;
+  const BoundaryIndex<TetWalker>& boundary_;
+  const PieceTable& table_;
+  const float early_termination_;
+  std::vector<TileRay> rays_;
+  std::vector<PacketColor> colors_;
+};
+
+}  // namespace plume

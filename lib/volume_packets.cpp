@@ -1,0 +1,108 @@
+#include "plume/lib/volume_packets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "plume/lib/volume_packets.cpp"
+#include "hwy/foreach_target.h"
+#include "plume/preint/closed_form-inl.h"
+#include "plume/traverse/tet_packets-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace plume {
+namespace HWY_NAMESPACE {
+
+constexpr std::size_t kPackets = 4;
+
+template <bool kSmall>
+struct VolumeConsumer {
+  static constexpr bool kMeasure = true;
+
+  const PieceTable& table;
+  const float* cell_values;  // null where the field is on points
+  float early_termination;
+  std::span<PacketColor> colors;
+  struct Lanes {
+    HWY_ALIGN float r[kMaxLanes];
+    HWY_ALIGN float g[kMaxLanes];
+    HWY_ALIGN float b[kMaxLanes];
+    HWY_ALIGN float transmittance[kMaxLanes];
+    HWY_ALIGN std::uint32_t piece[kMaxLanes];
+    HWY_ALIGN std::uint32_t cells[kMaxLanes];
+  };
+  Lanes lanes[kPackets] = {};
+
+  void begin(std::size_t packet, std::size_t lane, const PacketStart& start) {
+    Lanes& mine = lanes[packet];
+    const PacketColor& color = colors[start.ray];
+    mine.r[lane] = color.r;
+    mine.g[lane] = color.g;
+    mine.b[lane] = color.b;
+    mine.transmittance[lane] = color.transmittance;
+    mine.piece[lane] = static_cast<std::uint32_t>(table.piece_at(start.scalar));
+    mine.cells[lane] = color.cells;
+  }
+
+  HWY_INLINE MF visit(std::size_t packet, MF active, VF length, VF s_in, VF s_out, VU cells) {
+    const DF d;
+    const DU du;
+    Lanes& mine = lanes[packet];
+    if (cell_values != nullptr) {
+      s_in = hn::GatherIndex(d, cell_values, hn::BitCast(hn::RebindToSigned<DU>(), cells));
+      s_out = s_in;
+    }
+    optics::Sums sums{hn::Load(d, mine.r), hn::Load(d, mine.g), hn::Load(d, mine.b),
+                      hn::Load(d, mine.transmittance)};
+    VU piece = hn::Load(du, mine.piece);
+    optics::Composite<kSmall>(table, active, s_in, s_out, length, piece, sums);
+    hn::Store(sums.r, d, mine.r);
+    hn::Store(sums.g, d, mine.g);
+    hn::Store(sums.b, d, mine.b);
+    hn::Store(sums.transmittance, d, mine.transmittance);
+    hn::Store(piece, du, mine.piece);
+    hn::Store(hn::Add(hn::Load(du, mine.cells), hn::Set(du, 1)), du, mine.cells);
+    return hn::Le(sums.transmittance, hn::Set(d, early_termination));
+  }
+
+  void end(std::size_t packet, std::size_t lane, const PacketStart& start, float z, bool /*left*/) {
+    const Lanes& mine = lanes[packet];
+    const float transmittance = mine.transmittance[lane];
+    colors[start.ray] = {mine.r[lane],     mine.g[lane], mine.b[lane], transmittance,
+                         mine.cells[lane], z,            transmittance <= early_termination};
+  }
+};
+
+template <bool kSmall>
+void CompositeWith(const WalkableTets& mesh, const PieceTable& table, int axis,
+                   float early_termination, PacketFeeder& feeder, std::span<PacketColor> colors) {
+  VolumeConsumer<kSmall> consumer{
+      table, mesh.cell_values.empty() ? nullptr : mesh.cell_values.data(), early_termination,
+      colors};
+  WalkAlong<kPackets>(mesh, axis, consumer, feeder);
+}
+
+void CompositePackets(const WalkableTets& mesh, const PieceTable& table, int axis,
+                      float early_termination, PacketFeeder& feeder,
+                      std::span<PacketColor> colors) {
+  // All of a small table's entries, and the bound behind the last piece, fit into one register.
+  if (table.pieces < kMaxLanes && hn::Lanes(DF()) == kMaxLanes)
+    CompositeWith<true>(mesh, table, axis, early_termination, feeder, colors);
+  else
+    CompositeWith<false>(mesh, table, axis, early_termination, feeder, colors);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace plume
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace plume {
+
+HWY_EXPORT(CompositePackets);
+
+void composite_packets(const WalkableTets& mesh, const PieceTable& table, int axis,
+                       float early_termination, PacketFeeder& feeder,
+                       std::span<PacketColor> colors) {
+  HWY_DYNAMIC_DISPATCH(CompositePackets)(mesh, table, axis, early_termination, feeder, colors);
+}
+
+}  // namespace plume
+#endif  // HWY_ONCE

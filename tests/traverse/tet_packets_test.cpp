@@ -1,0 +1,147 @@
+// Packets take the way of their scalar twin, bit for bit, with every instruction set at hand.
+
+#include "plume/traverse/tet_packets.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "adversarial_rays.h"
+#include "hwy/targets.h"
+#include "plume/datasets/generate.h"
+#include "plume/mesh/validate.h"
+#include "plume/traverse/trace.h"
+
+namespace plume::test {
+namespace {
+
+// Hands out starts of one axis, each once.
+class Starts : public PacketFeeder {
+ public:
+  explicit Starts(std::vector<PacketStart> starts) : starts_(std::move(starts)) {}
+  const PacketStart* next(const PacketStart*) override {
+    return at_ < starts_.size() ? &starts_[at_++] : nullptr;
+  }
+  void rewind() { at_ = 0; }
+
+ private:
+  std::vector<PacketStart> starts_;
+  std::size_t at_ = 0;
+};
+
+class Segments : public PacketSegmentSink {
+ public:
+  explicit Segments(std::size_t rays) : of_ray(rays) {}
+  void take(const PacketSegment& segment) override { of_ray[segment.ray].push_back(segment); }
+  std::vector<std::vector<PacketSegment>> of_ray;
+};
+
+// Restores all instruction sets at the end of a scope.
+struct InstructionSets {
+  std::vector<std::int64_t> each;
+  InstructionSets() {
+    for (std::int64_t all = hwy::SupportedTargets(); all != 0; all &= all - 1) each.push_back(all & -all);
+  }
+  ~InstructionSets() { limit_packet_instruction_sets(0); }
+};
+
+struct Case {
+  const char* name;
+  int size;
+  double jitter;
+  std::uint64_t rays;
+};
+
+void expect_twins(const Case& c) {
+  SCOPED_TRACE(c.name);
+  const Mesh mesh = generate("box-tetrahedra", {c.size, c.jitter, 5});
+  const WalkableTets tets =
+      make_walkable_tets(mesh, select_field(mesh), check_structure(mesh), false);
+  const BoundaryIndex<TetWalker> boundary(tets);
+  AdversarialRays make_ray(mesh, bounds_of(mesh.points), 31);
+
+  // The twin's first passage of each ray.
+  std::vector<std::vector<PacketStart>> starts(3);
+  std::vector<std::vector<Segment>> expected;
+  for (std::uint64_t i = 0; i < c.rays; ++i) {
+    ShearedFrame frame;
+    ASSERT_TRUE(frame.set(make_ray(i), tets.frame));
+    TetWalker walker(tets, frame);
+    const auto entry = boundary.next_entry(walker, frame, nullptr);
+    if (!entry) continue;
+    walker.enter(tets.boundary[entry->boundary], entry->rank);
+    starts[static_cast<std::size_t>(frame.axis())].push_back(
+        walker.packet_start(entry->place, static_cast<std::uint32_t>(expected.size())));
+    std::vector<Segment> segments;
+    double t_in = frame.t(entry->place.z);
+    float s_in = entry->place.scalar;
+    do {
+      const std::uint32_t cell = walker.cell();
+      const auto exit = walker.leave();
+      ASSERT_TRUE(exit);
+      segments.push_back({t_in, std::max(t_in, frame.t(exit->z)), s_in, exit->scalar, cell});
+      t_in = segments.back().t_out;
+      s_in = exit->scalar;
+    } while (walker.advance());
+    expected.push_back(std::move(segments));
+  }
+  ASSERT_GT(expected.size(), c.rays / 2);
+
+  const InstructionSets sets;
+  std::set<std::string> names;
+  for (const std::int64_t target : sets.each) {
+    limit_packet_instruction_sets(target);
+    SCOPED_TRACE(packet_instruction_set());
+    names.insert(packet_instruction_set());
+    std::vector<std::uint32_t> counts(expected.size(), 0);
+    Segments found(expected.size());
+    for (int axis = 0; axis < 3; ++axis) {
+      Starts feeder(starts[static_cast<std::size_t>(axis)]);
+      count_cells(tets, axis, feeder, counts);
+      feeder.rewind();
+      walk_segments(tets, axis, feeder, found);
+    }
+    for (std::size_t ray = 0; ray < expected.size(); ++ray) {
+      const auto& mine = found.of_ray[ray];
+      const auto& twin = expected[ray];
+      ASSERT_EQ(counts[ray], twin.size()) << "ray " << ray;
+      ASSERT_EQ(mine.size(), twin.size()) << "ray " << ray;
+      double sum = 0, twin_sum = 0;
+      for (std::size_t s = 0; s < twin.size(); ++s) {
+        ASSERT_EQ(mine[s].cell, twin[s].cell) << "ray " << ray << " step " << s;
+        sum += mine[s].length;
+        twin_sum += twin[s].t_out - twin[s].t_in;
+      }
+      // The measurements: single precision against double. Sums telescope, so that only the ends
+      // of the passage count. Where there are no fused products, slivers near the boundary may
+      // lose more of it.
+      ASSERT_NEAR(sum, twin_sum, 4e-6) << "ray " << ray;
+    }
+  }
+  // At least the baseline and something wider; bits of sets that were not compiled fall back on one.
+  EXPECT_GE(names.size(), 2u);
+}
+
+TEST(TetPackets, TakeTheWayOfTheirTwinThroughCleanCells) {
+  expect_twins({"clean", 10, 0, 20000});
+}
+TEST(TetPackets, TakeTheWayOfTheirTwinThroughJitteredCells) {
+  expect_twins({"jittered", 10, 0.25, 20000});
+}
+TEST(TetPackets, TakeTheWayOfTheirTwinThroughInvertedCells) {
+  expect_twins({"inverted", 10, 3, 20000});
+}
+
+TEST(TetPackets, WalkAsFewRaysAsOne) {
+  expect_twins({"three rays", 3, 0.2, 3});
+  const WalkableTets none;
+  Starts nothing({});
+  std::vector<std::uint32_t> counts;
+  count_cells(none, 0, nothing, counts);
+}
+
+}  // namespace
+}  // namespace plume::test

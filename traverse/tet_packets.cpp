@@ -1,0 +1,102 @@
+#include "plume/traverse/tet_packets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "plume/traverse/tet_packets.cpp"
+#include "hwy/foreach_target.h"
+#include "plume/traverse/tet_packets-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace plume {
+namespace HWY_NAMESPACE {
+
+constexpr std::size_t kPackets = 4;
+
+// Counts steps, and nothing else.
+struct CountConsumer {
+  static constexpr bool kMeasure = false;
+
+  std::span<std::uint32_t> counts;
+  HWY_ALIGN std::uint32_t steps[kPackets][kMaxLanes] = {};
+
+  HWY_INLINE void begin(std::size_t packet, std::size_t lane, const PacketStart&) {
+    steps[packet][lane] = 0;
+  }
+  HWY_INLINE MF visit(std::size_t packet, MF /*active*/, VF, VF, VF, VU) {
+    const DU du;
+    hn::Store(hn::Add(hn::Load(du, steps[packet]), hn::Set(du, 1)), du, steps[packet]);
+    return hn::MaskFromVec(hn::Zero(DF()));
+  }
+  HWY_INLINE void end(std::size_t packet, std::size_t lane, const PacketStart& start, float, bool) {
+    counts[start.ray] += steps[packet][lane];
+  }
+};
+
+void CountCells(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
+                std::span<std::uint32_t> counts) {
+  CountConsumer consumer{counts};
+  WalkAlong<kPackets>(mesh, axis, consumer, feeder);
+}
+
+struct SegmentConsumer {
+  static constexpr bool kMeasure = true;
+
+  PacketSegmentSink& sink;
+  std::uint32_t rays[kPackets][kMaxLanes] = {};
+
+  void begin(std::size_t packet, std::size_t lane, const PacketStart& start) {
+    rays[packet][lane] = start.ray;
+  }
+  MF visit(std::size_t packet, MF active, VF length, VF s_in, VF s_out, VU cells) {
+    const DF d;
+    HWY_ALIGN float lengths[kMaxLanes], front[kMaxLanes], back[kMaxLanes];
+    HWY_ALIGN std::uint32_t cell[kMaxLanes], on[kMaxLanes];
+    hn::Store(length, d, lengths);
+    hn::Store(s_in, d, front);
+    hn::Store(s_out, d, back);
+    hn::Store(cells, DU(), cell);
+    hn::Store(hn::VecFromMask(DU(), hn::RebindMask(DU(), active)), DU(), on);
+    for (std::size_t lane = 0; lane < hn::Lanes(d); ++lane)
+      if (on[lane] != 0)
+        sink.take({rays[packet][lane], cell[lane], lengths[lane], front[lane], back[lane]});
+    return hn::MaskFromVec(hn::Zero(d));
+  }
+  void end(std::size_t, std::size_t, const PacketStart&, float, bool) {}
+};
+
+void WalkSegments(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
+                  PacketSegmentSink& sink) {
+  SegmentConsumer consumer{sink};
+  WalkAlong<kPackets>(mesh, axis, consumer, feeder);
+}
+
+const char* InstructionSet() { return hwy::TargetName(HWY_TARGET); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace plume
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace plume {
+
+HWY_EXPORT(CountCells);
+HWY_EXPORT(WalkSegments);
+HWY_EXPORT(InstructionSet);
+
+void count_cells(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
+                 std::span<std::uint32_t> counts) {
+  HWY_DYNAMIC_DISPATCH(CountCells)(mesh, axis, feeder, counts);
+}
+
+void walk_segments(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
+                   PacketSegmentSink& sink) {
+  HWY_DYNAMIC_DISPATCH(WalkSegments)(mesh, axis, feeder, sink);
+}
+
+const char* packet_instruction_set() { return HWY_DYNAMIC_DISPATCH(InstructionSet)(); }
+
+void limit_packet_instruction_sets(std::int64_t targets) {
+  hwy::SetSupportedTargetsForTest(targets);
+}
+
+}  // namespace plume
+#endif  // HWY_ONCE
