@@ -47,8 +47,8 @@ class PacketTile::Feeder : public PacketFeeder {
       const PacketColor& color = tile_.colors_[finished->ray];
       if (!color.opaque) {
         const TetWalker walker(tile_.mesh_, ray.frame);
-        if (tile_.prepare(finished->ray,
-                          tile_.boundary_.next_entry(walker, ray.frame, &ray.entry), color.z))
+        if (tile_.prepare(finished->ray, tile_.boundary_.next_entry(walker, ray.frame, &ray.entry),
+                          color.z))
           return &ray.start;
       }
     }

@@ -14,8 +14,8 @@ namespace plume {
 
 /// Rays of a tile: added one by one, then composited together. Reused from tile to tile.
 ///
-/// Packets walk a ray from entry to entry, each passage whole. A ray that starts inside of the mesh,
-/// or one of whose passages begins before the last one ended (parts that overlap), needs its
+/// Packets walk a ray from entry to entry, each passage whole. A ray that starts inside of the
+/// mesh, or one of whose passages begins before the last one ended (parts that overlap), needs its
 /// segments cut: such rays are left to trace(), and `colors` has nothing for them.
 class PacketTile {
  public:

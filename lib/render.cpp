@@ -357,9 +357,8 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
             return;
           }
         }
-        for_each_tile([&](int x, int y) {
-          frame.render_tile(*walkable, chosen, x, y, counts.local());
-        });
+        for_each_tile(
+            [&](int x, int y) { frame.render_tile(*walkable, chosen, x, y, counts.local()); });
       },
       scene.body().walkable, integrator);
   frame.shade_raw();

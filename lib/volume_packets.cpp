@@ -1,5 +1,7 @@
 #include "plume/lib/volume_packets.h"
 
+#include <algorithm>
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "plume/lib/volume_packets.cpp"
 #include "hwy/foreach_target.h"
@@ -12,13 +14,12 @@ namespace HWY_NAMESPACE {
 
 constexpr std::size_t kPackets = 4;
 
-template <bool kSmall>
 struct VolumeConsumer {
   static constexpr bool kMeasure = true;
 
   const PieceTable& table;
   const float* cell_values;  // null where the field is on points
-  float early_termination;
+  float enough;              // transmittance at which a ray ends
   std::span<PacketColor> colors;
   struct Lanes {
     HWY_ALIGN float r[kMaxLanes];
@@ -52,41 +53,38 @@ struct VolumeConsumer {
     optics::Sums sums{hn::Load(d, mine.r), hn::Load(d, mine.g), hn::Load(d, mine.b),
                       hn::Load(d, mine.transmittance)};
     VU piece = hn::Load(du, mine.piece);
-    optics::Composite<kSmall>(table, active, s_in, s_out, length, piece, sums);
+    auto load = [](const float* base, VU indices) {
+      HWY_ALIGN std::uint32_t stored[kMaxLanes];
+      hn::Store(indices, DU(), stored);
+      const FourFloats four = LoadFour(base, stored);
+      return optics::Record{four.a, four.b, four.c, four.d};
+    };
+    optics::Composite(load, table, active, s_in, s_out, length, piece, sums);
     hn::Store(sums.r, d, mine.r);
     hn::Store(sums.g, d, mine.g);
     hn::Store(sums.b, d, mine.b);
     hn::Store(sums.transmittance, d, mine.transmittance);
     hn::Store(piece, du, mine.piece);
     hn::Store(hn::Add(hn::Load(du, mine.cells), hn::Set(du, 1)), du, mine.cells);
-    return hn::Le(sums.transmittance, hn::Set(d, early_termination));
+    return hn::Le(sums.transmittance, hn::Set(d, enough));
   }
 
   void end(std::size_t packet, std::size_t lane, const PacketStart& start, float z, bool /*left*/) {
     const Lanes& mine = lanes[packet];
     const float transmittance = mine.transmittance[lane];
-    colors[start.ray] = {mine.r[lane],     mine.g[lane], mine.b[lane], transmittance,
-                         mine.cells[lane], z,            transmittance <= early_termination};
+    colors[start.ray] = {mine.r[lane],           mine.g[lane],     mine.b[lane],
+                         transmittance,          mine.cells[lane], z,
+                         transmittance <= enough};
   }
 };
-
-template <bool kSmall>
-void CompositeWith(const WalkableTets& mesh, const PieceTable& table, int axis,
-                   float early_termination, PacketFeeder& feeder, std::span<PacketColor> colors) {
-  VolumeConsumer<kSmall> consumer{
-      table, mesh.cell_values.empty() ? nullptr : mesh.cell_values.data(), early_termination,
-      colors};
-  WalkAlong<kPackets>(mesh, axis, consumer, feeder);
-}
 
 void CompositePackets(const WalkableTets& mesh, const PieceTable& table, int axis,
                       float early_termination, PacketFeeder& feeder,
                       std::span<PacketColor> colors) {
-  // All of a small table's entries, and the bound behind the last piece, fit into one register.
-  if (table.pieces < kMaxLanes && hn::Lanes(DF()) == kMaxLanes)
-    CompositeWith<true>(mesh, table, axis, early_termination, feeder, colors);
-  else
-    CompositeWith<false>(mesh, table, axis, early_termination, feeder, colors);
+  // Behind a transmittance of 1e-9 nothing changes a float between 0 and 1.
+  VolumeConsumer consumer{table, mesh.cell_values.empty() ? nullptr : mesh.cell_values.data(),
+                          std::max(early_termination, 1e-9f), colors};
+  WalkAlong<kPackets>(mesh, axis, consumer, feeder);
 }
 
 }  // namespace HWY_NAMESPACE

@@ -56,9 +56,9 @@ HWY_INLINE VF Horner(VF x, float c0, C... more) {
 
 // 1 - exp(-m) for m in [0, 1].
 HWY_INLINE VF Absorbed(VF m) {
-  return hn::Mul(m, Horner(m, 9.999999979e-01f, -4.999997973e-01f, 1.666634031e-01f,
-                           -4.164684931e-02f, 8.275504845e-03f, -1.300774959e-03f,
-                           1.290763106e-04f));
+  return hn::Mul(m,
+                 Horner(m, 9.999999979e-01f, -4.999997973e-01f, 1.666634031e-01f, -4.164684931e-02f,
+                        8.275504845e-03f, -1.300774959e-03f, 1.290763106e-04f));
 }
 
 // psi - exp(-m) for m in [0, 1], |d| <= m.
@@ -69,8 +69,7 @@ HWY_INLINE VF Chi(VF m, VF d) {
                        9.426105211e-04f, -1.016378370e-04f);
   const VF x2 = Horner(m, 1.666664986e-02f, -8.332490790e-03f, 2.374123241e-03f, -4.763509607e-04f,
                        5.870130521e-05f);
-  const VF x3 =
-      Horner(m, 1.190444501e-03f, -5.942196611e-04f, 1.601330927e-04f, -2.423962708e-05f);
+  const VF x3 = Horner(m, 1.190444501e-03f, -5.942196611e-04f, 1.601330927e-04f, -2.423962708e-05f);
   const VF x4 = Horner(m, 6.609377066e-05f, -3.227347494e-05f, 6.789842466e-06f);
   const VF x5 = Horner(m, 2.964161757e-06f, -1.158061818e-06f);
   VF sum = hn::MulAdd(x5, d, x4);
@@ -80,23 +79,18 @@ HWY_INLINE VF Chi(VF m, VF d) {
   return hn::MulAdd(sum, d, hn::Mul(x0, m));
 }
 
-// Entries of a table; where all of them fit into one register they are permuted, not fetched.
-template <bool kSmall>
-HWY_INLINE VF LookUp(const std::vector<float>& table, VU index) {
-  const DF d;
-#if HWY_TARGET <= HWY_AVX3
-  if constexpr (kSmall)
-    return hn::TableLookupLanes(hn::LoadU(d, table.data()), hn::IndicesFromVec(d, index));
-#endif
-  return hn::GatherIndex(d, table.data(), hn::BitCast(DI(), index));
-}
+// Four floats a lane.
+struct Record {
+  VF a, b, c, d;
+};
 
-// Composites one segment a lane: the scalar runs linearly from s_in to s_out, `length` >= 0 in world
-// units. `piece` is that of the last segment's end, or any; it is left at this one's. Lanes that
-// are not active, or have a NaN, keep their sums.
-template <bool kSmall>
-HWY_INLINE void Composite(const PieceTable& table, MF active, VF s_in, VF s_out, VF length,
-                          VU& piece, Sums& sums) {
+// Composites one segment a lane: the scalar runs linearly from s_in to s_out, `length` >= 0 in
+// world units. `piece` is that of the last segment's end, or any; it is left at this one's. Lanes
+// that are not active, or have a NaN, keep their sums. `load(base, indices)` fetches the Record at
+// base + 4 * index of each lane: how that is done best is known to who walks.
+template <class Load>
+HWY_INLINE void Composite(const Load& load, const PieceTable& table, MF active, VF s_in, VF s_out,
+                          VF length, VU& piece, Sums& sums) {
   const DF d;
   const DU du;
   const VF zero = hn::Zero(d);
@@ -108,14 +102,17 @@ HWY_INLINE void Composite(const PieceTable& table, MF active, VF s_in, VF s_out,
   const MF rising = hn::Ge(s_out, s_in);
 
   // The piece that the segment begins in: mostly where the last one ended.
-  VF lower, upper;
+  const float* const pieces = &table.pieces.data()->low;
+  static_assert(sizeof(PieceTable::Piece) == 12 * sizeof(float));
+  Record range;  // low, high, extinction, its slope
+  auto load_range = [&] { range = load(pieces, hn::Mul(piece, hn::Set(du, 3))); };
   for (;;) {
-    lower = LookUp<kSmall>(table.low, piece);
-    upper = LookUp<kSmall>(table.low, hn::Add(piece, one_piece));
-    const MF above = hn::And(active, hn::Or(hn::Gt(s_in, upper),
-                                            hn::And(rising, hn::Eq(s_in, upper))));
-    const MF below = hn::And(active, hn::Or(hn::Lt(s_in, lower),
-                                            hn::AndNot(rising, hn::Eq(s_in, lower))));
+    load_range();
+    const VF lower = range.a, upper = range.b;
+    const MF above =
+        hn::And(active, hn::Or(hn::Gt(s_in, upper), hn::And(rising, hn::Eq(s_in, upper))));
+    const MF below =
+        hn::And(active, hn::Or(hn::Lt(s_in, lower), hn::AndNot(rising, hn::Eq(s_in, lower))));
     if (HWY_LIKELY(hn::AllFalse(d, hn::Or(above, below)))) break;
     piece = hn::Sub(piece, hn::VecFromMask(du, hn::RebindMask(du, above)));
     piece = hn::Add(piece, hn::VecFromMask(du, hn::RebindMask(du, below)));
@@ -126,15 +123,17 @@ HWY_INLINE void Composite(const PieceTable& table, MF active, VF s_in, VF s_out,
   VF scalar = s_in;
   VF rest = length;
   for (;;) {
-    const VF bound = hn::IfThenElse(rising, upper, lower);
-    MF last = hn::Or(hn::And(rising, hn::Le(s_out, bound)),
-                     hn::AndNot(rising, hn::Ge(s_out, bound)));
+    const VF bound = hn::IfThenElse(rising, range.b, range.a);
+    MF last =
+        hn::Or(hn::And(rising, hn::Le(s_out, bound)), hn::AndNot(rising, hn::Ge(s_out, bound)));
     VF next = hn::IfThenElse(last, s_out, bound);
-    VF part = hn::IfThenElse(
-        last, rest, hn::Min(rest, hn::Mul(hn::Abs(hn::Sub(next, scalar)), per_scalar)));
-    const VF base = LookUp<kSmall>(table.base, piece);
-    const VF extinction = LookUp<kSmall>(table.extinction, piece);
-    const VF slope = LookUp<kSmall>(table.extinction_slope, piece);
+    VF part = hn::IfThenElse(last, rest,
+                             hn::Min(rest, hn::Mul(hn::Abs(hn::Sub(next, scalar)), per_scalar)));
+    const VF extinction = range.c, slope = range.d;
+    const VU second = hn::Add(hn::Mul(piece, hn::Set(du, 3)), one_piece);
+    const Record color = load(pieces, second);
+    const Record color_slope = load(pieces, hn::Add(second, one_piece));
+    const VF base = color.d;
     const VF from_base = hn::Sub(scalar, base);
     const VF front = hn::Max(zero, hn::MulAdd(from_base, slope, extinction));
     const VF back = hn::Max(zero, hn::MulAdd(hn::Sub(next, base), slope, extinction));
@@ -151,21 +150,20 @@ HWY_INLINE void Composite(const PieceTable& table, MF active, VF s_in, VF s_out,
       const VF bent = hn::Mul(hn::Mul(half, growth), hn::Mul(h, h));
       next = hn::IfThenElse(deep, cut, next);
       mean = hn::IfThenElse(deep, one, mean);
-      difference =
-          hn::IfThenElse(deep, hn::Max(hn::Neg(one), hn::Min(one, bent)), difference);
+      difference = hn::IfThenElse(deep, hn::Max(hn::Neg(one), hn::Min(one, bent)), difference);
       part = hn::IfThenElse(deep, h, part);
       last = hn::AndNot(deep, last);
     }
     const VF visible = hn::IfThenElseZero(active, sums.transmittance);
     const VF weight = hn::Mul(visible, Absorbed(mean));
     const VF turn = hn::Mul(hn::Mul(visible, Chi(mean, difference)), hn::Sub(next, scalar));
-    VF* const channels[3] = {&sums.r, &sums.g, &sums.b};
-    for (std::size_t c = 0; c < 3; ++c) {
-      const VF color = LookUp<kSmall>(table.color[c], piece);
-      const VF color_slope = LookUp<kSmall>(table.color_slope[c], piece);
-      *channels[c] = hn::MulAdd(weight, hn::MulAdd(from_base, color_slope, color), *channels[c]);
-      *channels[c] = hn::MulAdd(turn, color_slope, *channels[c]);
-    }
+    auto add = [&](VF& sum, VF value, VF value_slope) {
+      sum = hn::MulAdd(weight, hn::MulAdd(from_base, value_slope, value), sum);
+      sum = hn::MulAdd(turn, value_slope, sum);
+    };
+    add(sums.r, color.a, color_slope.a);
+    add(sums.g, color.b, color_slope.b);
+    add(sums.b, color.c, color_slope.c);
     sums.transmittance = hn::Sub(sums.transmittance, weight);
 
     active = hn::AndNot(last, active);
@@ -177,8 +175,7 @@ HWY_INLINE void Composite(const PieceTable& table, MF active, VF s_in, VF s_out,
     const auto move = hn::RebindMask(du, hn::AndNot(deep, active));
     const VU stride = hn::IfThenElse(hn::RebindMask(du, rising), one_piece, hn::Set(du, ~0u));
     piece = hn::Add(piece, hn::IfThenElseZero(move, stride));
-    lower = LookUp<kSmall>(table.low, piece);
-    upper = LookUp<kSmall>(table.low, hn::Add(piece, one_piece));
+    load_range();
   }
 }
 

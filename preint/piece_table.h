@@ -8,22 +8,24 @@
 
 namespace plume {
 
-/// Piece i covers scalars from low[i] to low[i + 1]; before the first knot and behind the last lie
-/// pieces without end on which nothing changes. On piece i, with r = scalar - base[i], extinction is
-/// extinction[i] + r * extinction_slope[i], and each colour likewise. A step is a piece of no width.
-/// All arrays are padded to a multiple of 16 entries.
+/// Piece i covers the scalars from low to high; before the first knot and behind the last lie
+/// pieces without end on which nothing changes. With r = scalar - base, extinction is extinction +
+/// r * extinction_slope, and each colour likewise. A step is a piece of no width.
 struct PieceTable {
+  /// Three times four floats, so that a lane's is fetched with three loads.
+  struct Piece {
+    float low, high, extinction, extinction_slope;
+    float color[3], base;
+    float color_slope[3], unused;
+  };
+
   /// Requires !transfer_function.problem().
   explicit PieceTable(const TransferFunction& transfer_function);
 
   /// The piece that a scalar enters when it rises from `scalar`. Any piece will do for NaN.
   std::size_t piece_at(float scalar) const;
 
-  std::size_t pieces = 0;
-  /// pieces + 1 entries: from -infinity to +infinity.
-  std::vector<float> low;
-  std::vector<float> base, extinction, extinction_slope;
-  std::vector<float> color[3], color_slope[3];
+  std::vector<Piece> pieces;
 };
 
 }  // namespace plume

@@ -2,9 +2,9 @@
 // after hwy/foreach_target.h alone (see tet_packets.cpp).
 //
 // Each lane of a packet walks a ray of its own; several packets take turns, so that while one waits
-// for memory the others compute. A lane whose ray has ended is given the next one. The decisions are
-// TetWalker's, bit for bit: the same products of the same sheared vertices are compared, none is
-// fused with a sum.
+// for memory the others compute. A lane whose ray has ended is given the next one. The decisions
+// are TetWalker's, bit for bit: the same products of the same sheared vertices are compared, none
+// is fused with a sum.
 
 // clang-format off
 #if defined(PLUME_TRAVERSE_TET_PACKETS_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -61,54 +61,53 @@ struct PacketState {
   HWY_ALIGN std::uint32_t active[kMaxLanes];  // all ones or zero
 };
 
-// x, y, z and scalar of a vertex, a lane each.
-struct Vertices {
-  VF x, y, z, s;
+// Four floats that lie together in memory, a lane each.
+struct FourFloats {
+  VF a, b, c, d;
 };
 
 #if HWY_TARGET == HWY_SCALAR
 
-HWY_INLINE Vertices LoadVertices(const WalkablePoint* HWY_RESTRICT points,
-                                 const std::uint32_t* HWY_RESTRICT ids) {
+HWY_INLINE FourFloats LoadFour(const float* HWY_RESTRICT base,
+                               const std::uint32_t* HWY_RESTRICT indices) {
   const DF d;
-  const WalkablePoint& p = points[ids[0]];
-  return {hn::Set(d, p.position[0]), hn::Set(d, p.position[1]), hn::Set(d, p.position[2]),
-          hn::Set(d, p.scalar)};
+  const float* const p = base + 4 * static_cast<std::size_t>(indices[0]);
+  return {hn::Set(d, p[0]), hn::Set(d, p[1]), hn::Set(d, p[2]), hn::Set(d, p[3])};
 }
 
 #else
 
-// The points of lanes 0, 4, 8, ... (counted from `ids`) side by side.
+// What lanes 0, 4, 8, ... (counted from `indices`) load, side by side.
 template <class D>
-HWY_INLINE hn::Vec<D> LoadEveryFourth(D d, const WalkablePoint* HWY_RESTRICT points,
-                                      const std::uint32_t* HWY_RESTRICT ids) {
+HWY_INLINE hn::Vec<D> LoadEveryFourth(D d, const float* HWY_RESTRICT base,
+                                      const std::uint32_t* HWY_RESTRICT indices) {
   if constexpr (hn::MaxLanes(D()) <= 4) {
-    return hn::LoadU(d, points[ids[0]].position);
+    return hn::LoadU(d, base + 4 * static_cast<std::size_t>(indices[0]));
   } else {
     const hn::Half<D> half;
-    return hn::Combine(d, LoadEveryFourth(half, points, ids + hn::MaxLanes(half)),
-                       LoadEveryFourth(half, points, ids));
+    return hn::Combine(d, LoadEveryFourth(half, base, indices + hn::MaxLanes(half)),
+                       LoadEveryFourth(half, base, indices));
   }
 }
 
-// One 16-byte load a lane, then a transposition within blocks of four lanes. On x86 this is faster
-// than four gathers.
-HWY_INLINE Vertices LoadVertices(const WalkablePoint* HWY_RESTRICT points,
-                                 const std::uint32_t* HWY_RESTRICT ids) {
+// The four floats at base + 4 * index: one 16-byte load a lane, then a transposition within blocks
+// of four lanes. On x86 that is faster than four gathers.
+HWY_INLINE FourFloats LoadFour(const float* HWY_RESTRICT base,
+                               const std::uint32_t* HWY_RESTRICT indices) {
   const DF d;
   const hn::Repartition<std::uint64_t, DF> d64;
-  const VF p0 = LoadEveryFourth(d, points, ids);
-  const VF p1 = LoadEveryFourth(d, points, ids + 1);
-  const VF p2 = LoadEveryFourth(d, points, ids + 2);
-  const VF p3 = LoadEveryFourth(d, points, ids + 3);
-  const auto xy01 = hn::BitCast(d64, hn::InterleaveLower(d, p0, p1));
-  const auto xy23 = hn::BitCast(d64, hn::InterleaveLower(d, p2, p3));
-  const auto zs01 = hn::BitCast(d64, hn::InterleaveUpper(d, p0, p1));
-  const auto zs23 = hn::BitCast(d64, hn::InterleaveUpper(d, p2, p3));
-  return {hn::BitCast(d, hn::InterleaveLower(d64, xy01, xy23)),
-          hn::BitCast(d, hn::InterleaveUpper(d64, xy01, xy23)),
-          hn::BitCast(d, hn::InterleaveLower(d64, zs01, zs23)),
-          hn::BitCast(d, hn::InterleaveUpper(d64, zs01, zs23))};
+  const VF p0 = LoadEveryFourth(d, base, indices);
+  const VF p1 = LoadEveryFourth(d, base, indices + 1);
+  const VF p2 = LoadEveryFourth(d, base, indices + 2);
+  const VF p3 = LoadEveryFourth(d, base, indices + 3);
+  const auto ab01 = hn::BitCast(d64, hn::InterleaveLower(d, p0, p1));
+  const auto ab23 = hn::BitCast(d64, hn::InterleaveLower(d, p2, p3));
+  const auto cd01 = hn::BitCast(d64, hn::InterleaveUpper(d, p0, p1));
+  const auto cd23 = hn::BitCast(d64, hn::InterleaveUpper(d, p2, p3));
+  return {hn::BitCast(d, hn::InterleaveLower(d64, ab01, ab23)),
+          hn::BitCast(d, hn::InterleaveUpper(d64, ab01, ab23)),
+          hn::BitCast(d, hn::InterleaveLower(d64, cd01, cd23)),
+          hn::BitCast(d, hn::InterleaveUpper(d64, cd01, cd23))};
 }
 
 #endif  // HWY_TARGET == HWY_SCALAR
@@ -218,9 +217,9 @@ struct StepResult {
   MF left;
 };
 
-// Where rays cross triangles that wind once about them: measure_triangle() in single precision, with
-// products that do not cancel, and relative to the third corner. The error of z and s is below 4
-// units in the last place of the triangle's range of them.
+// Where rays cross triangles that wind once about them: measure_triangle() in single precision,
+// with products that do not cancel, and relative to the third corner. The error of z and s is below
+// 4 units in the last place of the triangle's range of them.
 HWY_INLINE void Measure(const Corner<true>& a, const Corner<true>& b, const Corner<true>& c,
                         StepResult& result) {
   const DF d;
@@ -244,17 +243,17 @@ HWY_INLINE StepResult Step(const WalkableTets& mesh, PacketState& state) {
   using Corners = Corner<kMeasure>;
   const DF d;
   const DU du;
-  const Vertices fetched = LoadVertices(mesh.points.data(), state.apex);
-  const VF px = kAxis == 0 ? fetched.y : kAxis == 1 ? fetched.z : fetched.x;
-  const VF py = kAxis == 0 ? fetched.z : kAxis == 1 ? fetched.x : fetched.y;
-  const VF pz = kAxis == 0 ? fetched.x : kAxis == 1 ? fetched.y : fetched.z;
+  const FourFloats point = LoadFour(mesh.points.data()->position, state.apex);
+  const VF px = kAxis == 0 ? point.b : kAxis == 1 ? point.c : point.a;
+  const VF py = kAxis == 0 ? point.c : kAxis == 1 ? point.a : point.b;
+  const VF pz = kAxis == 0 ? point.a : kAxis == 1 ? point.b : point.c;
   Corners apex;
   apex.x =
       hn::Sub(hn::Sub(px, hn::Load(d, state.offset_x)), hn::Mul(hn::Load(d, state.slope_x), pz));
   apex.y =
       hn::Sub(hn::Sub(py, hn::Load(d, state.offset_y)), hn::Mul(hn::Load(d, state.slope_y), pz));
   apex.z = pz;
-  apex.s = fetched.s;
+  apex.s = point.d;
   apex.id = hn::Load(du, state.apex);
 
   const Corners low = Corners::Load(state.low);
@@ -270,8 +269,8 @@ HWY_INLINE StepResult Step(const WalkableTets& mesh, PacketState& state) {
   const VF x = hn::Xor(apex.x, flip);
   const VF y = hn::Xor(apex.y, flip);
   MF first = hn::Gt(hn::Mul(across.x, y), hn::Mul(x, across.y));
-  const MF second = hn::And(hn::Xor(hn::Ge(third.y, zero), up),
-                            hn::Gt(hn::Mul(third.x, y), hn::Mul(x, third.y)));
+  const MF second =
+      hn::And(hn::Xor(hn::Ge(third.y, zero), up), hn::Gt(hn::Mul(third.x, y), hn::Mul(x, third.y)));
   const MF both_ways = hn::AndNot(first, second);
   if (HWY_UNLIKELY(!hn::AllFalse(d, both_ways))) {
     const MF smaller_in = hn::RebindMask(d, hn::Lt(apex.id, beside.id));
@@ -296,8 +295,8 @@ HWY_INLINE StepResult Step(const WalkableTets& mesh, PacketState& state) {
   const VU rank = hn::Add(hn::Add(hn::VecFromMask(du, hn::Lt(new_across.id, behind)),
                                   hn::VecFromMask(du, hn::Lt(new_beside.id, behind))),
                           hn::VecFromMask(du, hn::Lt(new_third.id, behind)));
-  const Links next = LoadLinks(mesh.cells.data(),
-                               hn::Sub(hn::ShiftLeft<2>(hn::Load(du, state.cell)), rank));
+  const Links next =
+      LoadLinks(mesh.cells.data(), hn::Sub(hn::ShiftLeft<2>(hn::Load(du, state.cell)), rank));
   // A lane that has left goes on in cell 0 until it is given another ray.
   const auto out = hn::Eq(next.cell, hn::Set(du, kNone));
   hn::Store(hn::IfThenZeroElse(out, next.cell), du, state.cell);
@@ -404,9 +403,12 @@ void WalkPackets(const WalkableTets& mesh, Consumer& consumer, PacketFeeder& fee
 template <std::size_t kPackets, class Consumer>
 void WalkAlong(const WalkableTets& mesh, int axis, Consumer& consumer, PacketFeeder& feeder) {
   switch (axis) {
-    case 0: return WalkPackets<0, kPackets>(mesh, consumer, feeder);
-    case 1: return WalkPackets<1, kPackets>(mesh, consumer, feeder);
-    default: return WalkPackets<2, kPackets>(mesh, consumer, feeder);
+    case 0:
+      return WalkPackets<0, kPackets>(mesh, consumer, feeder);
+    case 1:
+      return WalkPackets<1, kPackets>(mesh, consumer, feeder);
+    default:
+      return WalkPackets<2, kPackets>(mesh, consumer, feeder);
   }
 }
 

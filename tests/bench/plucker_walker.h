@@ -158,6 +158,7 @@ PluckerWalk walk_plucker(const PluckerMesh& mesh, const PluckerRay& ray,
   PluckerCrossing in{};
   if constexpr (kMeasure) in = measure();
   PluckerWalk walk;
+#if VAR == 0
   for (;;) {
     ++walk.cells;
     const Vertex v3 = load(apex);
@@ -189,22 +190,141 @@ PluckerWalk walk_plucker(const PluckerMesh& mesh, const PluckerRay& ray,
       in = out;
     }
     const PluckerMesh::Cell& record = mesh.cells[cell];
-#if FACE == 0
-    const std::size_t face = record.points[1] == behind ? 1 : record.points[2] == behind ? 2 : record.points[3] == behind ? 3 : 0;
-#elif FACE == 1
-    const std::size_t face = static_cast<std::size_t>(record.points[1] == behind) + 2*static_cast<std::size_t>(record.points[2] == behind) + 3*static_cast<std::size_t>(record.points[3] == behind);
-#elif FACE == 2
     std::size_t face = 0;
     while (record.points[face] != behind) ++face;
-#elif FACE == 3
-    const std::size_t face = static_cast<std::size_t>(record.points[0] < behind) + static_cast<std::size_t>(record.points[1] < behind) + static_cast<std::size_t>(record.points[2] < behind)+ static_cast<std::size_t>(record.points[3] < behind);
-#endif
     const std::uint32_t next = record.neighbors[face];
     if (next == kNone) return walk;
     if (walk.cells == kPluckerLongest) { walk.lost = true; return walk; }
     cell = next >> 2;
     apex = mesh.cells[cell].points[next & 3];
   }
+#elif VAR == 1
+  for (;;) {
+    ++walk.cells;
+    const Vertex v3 = load(apex);
+    const M m = moment(v3);
+    const float w03 = product(v0, v3, m), w13 = product(v1, v3, m);
+    std::uint32_t behind;
+    if (w03 < 0 && w13 > 0) {
+      behind = v2.id;
+      v2 = v3;
+      w12 = w13; w20 = -w03;
+      audit.add_tests(2);
+    } else {
+      audit.add_tests(3);
+      const float w23 = product(v2, v3, m);
+      if (w23 > 0) {
+        behind = v0.id;
+        v0 = v3;
+        w01 = -w13; w20 = w23;
+      } else {
+        behind = v1.id;
+        v1 = v3;
+        w01 = w03; w12 = -w23;
+      }
+    }
+    const PluckerMesh::Cell& record = mesh.cells[cell];
+    std::size_t face = 0;
+    while (record.points[face] != behind) ++face;
+    const std::uint32_t next = record.neighbors[face];
+    if (!audit.accept(w01, w12, w20)) { walk.lost = true; return walk; }
+    if constexpr (kMeasure) {
+      const PluckerCrossing out = measure();
+      if (!visit(in.t, out.t, in.scalar, out.scalar)) return walk;
+      in = out;
+    }
+    if (next == kNone) return walk;
+    if (walk.cells == kPluckerLongest) { walk.lost = true; return walk; }
+    cell = next >> 2;
+    apex = mesh.cells[cell].points[next & 3];
+  }
+#elif VAR == 2
+  auto leave = [&](std::uint32_t behind) {
+    const PluckerMesh::Cell& record = mesh.cells[cell];
+    std::size_t face = 0;
+    while (record.points[face] != behind) ++face;
+    const std::uint32_t next = record.neighbors[face];
+    if (!audit.accept(w01, w12, w20)) { walk.lost = true; return false; }
+    if constexpr (kMeasure) {
+      const PluckerCrossing out = measure();
+      if (!visit(in.t, out.t, in.scalar, out.scalar)) return false;
+      in = out;
+    }
+    if (next == kNone) return false;
+    if (walk.cells == kPluckerLongest) { walk.lost = true; return false; }
+    cell = next >> 2;
+    apex = mesh.cells[cell].points[next & 3];
+    return true;
+  };
+  for (;;) {
+    ++walk.cells;
+    const Vertex v3 = load(apex);
+    const M m = moment(v3);
+    const float w03 = product(v0, v3, m), w13 = product(v1, v3, m);
+    if (w03 < 0 && w13 > 0) {
+      const auto behind = v2.id;
+      v2 = v3;
+      w12 = w13; w20 = -w03;
+      audit.add_tests(2);
+      if (!leave(behind)) return walk;
+    } else {
+      audit.add_tests(3);
+      const float w23 = product(v2, v3, m);
+      if (w23 > 0) {
+        const auto behind = v0.id;
+        v0 = v3;
+        w01 = -w13; w20 = w23;
+        if (!leave(behind)) return walk;
+      } else {
+        const auto behind = v1.id;
+        v1 = v3;
+        w01 = w03; w12 = -w23;
+        if (!leave(behind)) return walk;
+      }
+    }
+  }
+#elif VAR == 3
+  // four explicit stages? rotate roles: newest always v2
+  for (;;) {
+    ++walk.cells;
+    const Vertex v3 = load(apex);
+    const M m = moment(v3);
+    const float w03 = product(v0, v3, m), w13 = product(v1, v3, m);
+    std::uint32_t behind;
+    if (w03 < 0 && w13 > 0) {
+      behind = v2.id;
+      w12 = w13; w20 = -w03;
+      audit.add_tests(2);
+    } else {
+      audit.add_tests(3);
+      const float w23 = product(v2, v3, m);
+      if (w23 > 0) {
+        behind = v0.id;
+        v0 = v1; v1 = v2;
+        w01 = w12; w12 = w23; w20 = -w13;
+      } else {
+        behind = v1.id;
+        v1 = v0; v0 = v2;
+        w01 = w20; w12 = w03; w20 = -w23;
+      }
+    }
+    v2 = v3;
+    const PluckerMesh::Cell& record = mesh.cells[cell];
+    std::size_t face = 0;
+    while (record.points[face] != behind) ++face;
+    const std::uint32_t next = record.neighbors[face];
+    if (!audit.accept(w01, w12, w20)) { walk.lost = true; return walk; }
+    if constexpr (kMeasure) {
+      const PluckerCrossing out = measure();
+      if (!visit(in.t, out.t, in.scalar, out.scalar)) return walk;
+      in = out;
+    }
+    if (next == kNone) return walk;
+    if (walk.cells == kPluckerLongest) { walk.lost = true; return walk; }
+    cell = next >> 2;
+    apex = mesh.cells[cell].points[next & 3];
+  }
+#endif
 }
 
 }  // namespace plume::bench

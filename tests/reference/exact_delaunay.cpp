@@ -212,11 +212,16 @@ std::vector<std::uint32_t> ExactDelaunay::cells_along(const Segment& segment) co
   const Triangulation& triangulation = implementation_->triangulation;
   std::vector<std::uint32_t> cells;
   std::size_t steps = 0;
-  for (auto cell :
-       triangulation.segment_traverser_cell_handles(to_cgal(segment.from), to_cgal(segment.to))) {
+  auto at = triangulation.segment_traverser_cells_begin(to_cgal(segment.from), to_cgal(segment.to));
+  while (at.has_next()) {
+    // Having come to an edge or a vertex, the iterator is at a cell that the segment may only touch
+    // there, and its step goes around to the one that it passes through, and on (CGAL 5.5.1). The
+    // latter is then the previous one. Elsewhere that is just the cell that it was at.
+    ++at;
+    const auto passed = at.previous();
+    if (!triangulation.is_infinite(passed)) cells.push_back(passed->info());
     if (++steps > 64 * triangulation.number_of_cells())
       throw std::runtime_error("CGAL's segment traverser does not end");
-    if (!triangulation.is_infinite(cell)) cells.push_back(cell->info());
   }
   return cells;
 }

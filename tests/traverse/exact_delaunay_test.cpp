@@ -7,16 +7,19 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "plume/mesh/validate.h"
+#include "plume/tests/reference/brute_force.h"
 #include "plume/traverse/trace.h"
 
 namespace plume::test {
@@ -30,8 +33,8 @@ using Line = ExactDelaunay::Segment;
 // sheared frame (sheared_frame.h), where distances are no shorter than in space, half a unit in the
 // last place is at most: 6e-8 of the offset (up to 2), 3e-8 of the slope (up to 1, at |z| <= 1),
 // 1.2e-7 of point - offset (up to 3), 3e-8 of slope * z, 1.2e-7 of the difference (up to 4), which
-// makes 3.6e-7 in y, and with the products of an edge's ends (1.2e-7 of x up to 4, taken twice)
-// 6e-7 in x: together 7e-7. Nothing else that the walker decides is rounded.
+// makes 3.6e-7 in y. In x, the products of an edge's ends add 6e-8 of x (up to 4): 6e-7, and 7e-7
+// together. Nothing else that the walker decides by is rounded.
 constexpr double kRounding = 1e-6;
 // What double may add to a length.
 constexpr double kTiny = 1e-12;
@@ -202,7 +205,21 @@ struct Tally {
   int generic = 0;      // whose cells are beyond doubt
   int well_placed = 0;  // whose length is
   double worst = 0;     // difference of length among these
+
+  void add(const Tally& other) {
+    rays += other.rays;
+    generic += other.generic;
+    well_placed += other.well_placed;
+    worst = std::max(worst, other.worst);
+  }
 };
+
+void record(const Tally& tally) {
+  testing::Test::RecordProperty("rays", tally.rays);
+  testing::Test::RecordProperty("generic", tally.generic);
+  testing::Test::RecordProperty("well_placed", tally.well_placed);
+  testing::Test::RecordProperty("worst_length", std::to_string(tally.worst * 1e9) + "e-9");
+}
 
 class Comparison {
  public:
@@ -221,10 +238,11 @@ class Comparison {
   const ExactDelaunay& exact() const { return exact_; }
   const Tally& tally() const { return tally_; }
 
-  /// Whether the ray is generic: no rounding of the walker's can matter. Then the cells must be the
-  /// same; else, those that no rounding can hide, in the same order, and none that no rounding
-  /// could reach. The length must be what rounding can make of it in any case.
-  void compare(const Line& line, bool& generic) {
+  /// A ray is generic where no rounding of the walker's can change its cells. Those must then be
+  /// the same. On any ray, the same must be the cells that no rounding can hide, and there must be
+  /// none that no rounding can reach; and the length must be what rounding can make of the true
+  /// one.
+  void compare(const Line& line) {
     Ray ray;
     ray.origin = line.from;
     for (std::size_t a = 0; a < 3; ++a) ray.direction[a] = line.to[a] - line.from[a];
@@ -241,7 +259,7 @@ class Comparison {
     ASSERT_EQ(result.end, WalkEnd::left);
 
     const std::vector<std::uint32_t> expected = exact_.cells_along(line);
-    generic = exact_.clearance(line, expected) > kRounding;
+    const bool generic = exact_.clearance(line, expected) > kRounding;
     if (generic) {
       ASSERT_EQ(walked, expected);
     }
@@ -297,43 +315,86 @@ std::vector<Case> cases() {
 }  // namespace
 
 TEST(TetWalker, WalksTheCellsThatExactPredicatesFind) {
+  Tally total;
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
     Comparison comparison(c.points);
     Lines lines(comparison.exact(), 31);
-    for (int i = 0; i < 500; ++i) {
+    for (int i = 0; i < 1000; ++i) {
       SCOPED_TRACE("ray " + std::to_string(i));
-      bool generic = false;
-      comparison.compare(i % 4 == 3 ? lines.piece() : lines.across(), generic);
+      comparison.compare(i % 4 == 3 ? lines.piece() : lines.across());
       if (HasFatalFailure()) return;
     }
     const Tally& tally = comparison.tally();
-    printf("%-28s cells %zu rays %d generic %d well %d worst %g\n", c.name,
-           comparison.exact().tetrahedra().size(), tally.rays, tally.generic, tally.well_placed,
-           tally.worst);
     EXPECT_GE(tally.generic, 0.9 * tally.rays);
     EXPECT_GE(tally.well_placed, 0.9 * tally.rays);
+    total.add(tally);
   }
+  record(total);
 }
 
 TEST(TetWalker, WalksTheExactLengthThroughVerticesAndEdges) {
+  Tally total;
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
     Comparison comparison(c.points);
     Lines lines(comparison.exact(), 32);
     for (std::size_t i = 0; i < 100 * Lines::kDegenerateKinds; ++i) {
       SCOPED_TRACE("ray " + std::to_string(i));
-      bool generic = true;
-      const Line line = lines.degenerate(i);
-      comparison.compare(line, generic);
+      comparison.compare(lines.degenerate(i));
       if (HasFatalFailure()) return;
-      ASSERT_FALSE(generic);
     }
     const Tally& tally = comparison.tally();
-    printf("%-28s cells %zu rays %d generic %d well %d worst %g\n", c.name,
-           comparison.exact().tetrahedra().size(), tally.rays, tally.generic, tally.well_placed,
-           tally.worst);
+    EXPECT_EQ(tally.generic, 0);
+    EXPECT_GE(tally.well_placed, 0.9 * tally.rays);
+    total.add(tally);
   }
+  record(total);
+}
+
+// The oracle itself: by trying every cell, and by adding up what clipping leaves of each.
+TEST(ExactDelaunay, FindsWhatTryingEveryCellFinds) {
+  const ExactDelaunay exact(scattered(500, 0, 1));
+  std::vector<std::array<Point, 4>> corners;
+  for (const auto& cell : exact.tetrahedra())
+    corners.push_back({exact.points()[cell[0]], exact.points()[cell[1]], exact.points()[cell[2]],
+                       exact.points()[cell[3]]});
+  Lines lines(exact, 33);
+  for (std::size_t i = 0; i < 50 * Lines::kDegenerateKinds; ++i) {
+    SCOPED_TRACE("line " + std::to_string(i));
+    const bool across = i % 2 == 0;
+    const Line line = across ? lines.across() : lines.degenerate(i);
+    std::set<std::uint32_t> passed;
+    for (std::uint32_t cell = 0; cell < exact.tetrahedra().size(); ++cell)
+      if (exact.passes(line, cell, kRounding)) passed.insert(cell);
+    const std::vector<std::uint32_t> along = exact.cells_along(line);
+    const std::set<std::uint32_t> found(along.begin(), along.end());
+    ASSERT_EQ(found.size(), along.size());
+    ASSERT_TRUE(std::includes(found.begin(), found.end(), passed.begin(), passed.end()));
+    for (const std::uint32_t cell : along) ASSERT_TRUE(exact.passes(line, cell, -kTiny));
+    if (!across) continue;  // in a face's plane, clipping finds the cells on both sides
+    Point direction;
+    for (std::size_t a = 0; a < 3; ++a) direction[a] = line.to[a] - line.from[a];
+    double sum = 0;
+    for (const auto& span : reference::clip_tetrahedra(corners, line.from, direction, 0))
+      sum += span.t_out - span.t_in;
+    ASSERT_NEAR(exact.length_in_hull(line),
+                sum * std::hypot(direction[0], direction[1], direction[2]), kTiny);
+  }
+}
+
+TEST(ExactDelaunay, TellsExactlyWhatTouches) {
+  const ExactDelaunay exact({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}});
+  // Along an edge, in a side's plane, and next to both by the smallest of steps.
+  EXPECT_EQ(exact.length_in_hull({{-1, 0, 0}, {3, 0, 0}}), 1);
+  EXPECT_EQ(exact.length_in_hull({{-1, 0, -0x1p-1000}, {3, 0, -0x1p-1000}}), 0);
+  EXPECT_EQ(exact.length_in_hull({{-1, 0.25, 0}, {3, 0.25, 0}}), 0.75);
+  EXPECT_EQ(exact.length_in_hull({{0.25, 0.25, 0.125}, {0.25, 0.25, 7}}), 0.375);
+  EXPECT_EQ(exact.length_in_hull({{1, -1, 0}, {1, 1, 0}}), 0);
+  EXPECT_EQ(exact.length_in_hull({{-1, 2, 0}, {2, -1, 0}}), std::sqrt(2.0));
+  EXPECT_THROW(ExactDelaunay({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}}), std::invalid_argument);
+  EXPECT_THROW(ExactDelaunay({{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, 0, 1}}),
+               std::invalid_argument);
 }
 
 }  // namespace plume::test

@@ -43,7 +43,8 @@ class Segments : public PacketSegmentSink {
 struct InstructionSets {
   std::vector<std::int64_t> each;
   InstructionSets() {
-    for (std::int64_t all = hwy::SupportedTargets(); all != 0; all &= all - 1) each.push_back(all & -all);
+    for (std::int64_t all = hwy::SupportedTargets(); all != 0; all &= all - 1)
+      each.push_back(all & -all);
   }
   ~InstructionSets() { limit_packet_instruction_sets(0); }
 };
@@ -121,13 +122,12 @@ void expect_twins(const Case& c) {
       ASSERT_NEAR(sum, twin_sum, 4e-6) << "ray " << ray;
     }
   }
-  // At least the baseline and something wider; bits of sets that were not compiled fall back on one.
+  // At least the baseline and something wider; bits of sets that were not compiled fall back on
+  // one.
   EXPECT_GE(names.size(), 2u);
 }
 
-TEST(TetPackets, TakeTheWayOfTheirTwinThroughCleanCells) {
-  expect_twins({"clean", 10, 0, 20000});
-}
+TEST(TetPackets, TakeTheWayOfTheirTwinThroughCleanCells) { expect_twins({"clean", 10, 0, 20000}); }
 TEST(TetPackets, TakeTheWayOfTheirTwinThroughJitteredCells) {
   expect_twins({"jittered", 10, 0.25, 20000});
 }
