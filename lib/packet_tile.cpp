@@ -13,7 +13,6 @@ bool PacketTile::prepare(std::size_t index, const std::optional<Entry>& entry, d
     ray.declined = true;
     return false;
   }
-  ray.entry = *entry;
   TetWalker walker(mesh_, ray.frame);
   walker.enter(mesh_.boundary[entry->boundary], entry->rank);
   Crossing place = entry->place;
@@ -28,7 +27,7 @@ void PacketTile::add(const Ray& ray) {
   TileRay& added = rays_.emplace_back();
   if (!added.frame.set(ray, mesh_.frame)) return;
   const TetWalker walker(mesh_, added.frame);
-  const auto entry = boundary_.next_entry(walker, added.frame, nullptr);
+  const auto entry = added.all_entries.first(boundary_, walker, added.frame);
   if (entry && added.frame.t(entry->place.z) < ray.t_min) {
     added.declined = true;
     return;
@@ -47,7 +46,7 @@ class PacketTile::Feeder : public PacketFeeder {
       const PacketColor& color = tile_.colors_[finished->ray];
       if (!color.opaque) {
         const TetWalker walker(tile_.mesh_, ray.frame);
-        if (tile_.prepare(finished->ray, tile_.boundary_.next_entry(walker, ray.frame, &ray.entry),
+        if (tile_.prepare(finished->ray, ray.all_entries.next(tile_.boundary_, walker, ray.frame),
                           color.z))
           return &ray.start;
       }

@@ -43,7 +43,7 @@ class PacketTile {
  private:
   struct TileRay {
     ShearedFrame frame;
-    Entry entry;
+    Entries<TetWalker> all_entries;
     PacketStart start;
     std::uint32_t entries = 0;
     bool declined = false;

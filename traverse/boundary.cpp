@@ -67,7 +67,7 @@ struct Query {
   const Walker* walker;
   const ShearedFrame* frame;
   const Entry* previous;
-  std::optional<Entry> best;
+  EntryList found;
 };
 
 bool before(const Entry& a, const Entry& b, int sign) {
@@ -87,12 +87,26 @@ void face_intersect(const RTCIntersectFunctionNArguments* args) {
   const Entry entry{query.walker->measure_boundary(face, winding), args->primID, 0,
                     static_cast<std::uint32_t>(ways_in)};
   if (query.previous && !before(*query.previous, entry, query.frame->sign())) return;
-  if (query.best && !before(entry, *query.best, query.frame->sign())) return;
-  query.best = entry;
+  // Into the list, by insertion; what falls off its end is found by the next query.
+  EntryList& list = query.found;
+  const int sign = query.frame->sign();
+  if (list.size == EntryList::kCapacity) {
+    if (!before(entry, list.entries[list.size - 1], sign)) return;
+    --list.size;
+  }
+  std::uint32_t place = list.size++;
+  for (; place > 0 && before(entry, list.entries[place - 1], sign); --place)
+    list.entries[place] = list.entries[place - 1];
+  list.entries[place] = entry;
+  list.more = list.size == EntryList::kCapacity;
+  if (!list.more) return;
+  // Only what lies before the last of a full list matters any more; behind it there may be others,
+  // which are not looked for. Another face may lie at the
+  // same place: the margin keeps its box in sight.
   RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
   RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, args->N);
-  // Another face may lie at the same place: the margin keeps its box in sight.
-  RTCRayN_tfar(ray, args->N, 0) = query.frame->parameter(entry.place.z) + kMargin;
+  RTCRayN_tfar(ray, args->N, 0) =
+      query.frame->parameter(list.entries[list.size - 1].place.z) + kMargin;
   RTCHitN_geomID(hit, args->N, 0) = args->geomID;
   RTCHitN_primID(hit, args->N, 0) = args->primID;
 }
@@ -147,14 +161,8 @@ template <class Walker>
 BoundaryIndex<Walker>& BoundaryIndex<Walker>::operator=(BoundaryIndex&&) noexcept = default;
 
 template <class Walker>
-std::optional<Entry> BoundaryIndex<Walker>::next_entry(const Walker& walker,
-                                                       const ShearedFrame& frame,
-                                                       const Entry* previous) const {
-  if (previous && previous->rank + 1 < previous->ranks) {
-    Entry again = *previous;
-    ++again.rank;
-    return again;
-  }
+EntryList BoundaryIndex<Walker>::next_entries(const Walker& walker, const ShearedFrame& frame,
+                                              const Entry* previous) const {
   Query<Walker> query{};
   rtcInitIntersectContext(&query.context);
   query.walker = &walker;
@@ -175,7 +183,7 @@ std::optional<Entry> BoundaryIndex<Walker>::next_entry(const Walker& walker,
   rayhit.ray.mask = 0xFFFFFFFFu;
   rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(implementation_->scene.get(), &query.context, &rayhit);
-  return query.best;
+  return query.found;
 }
 
 template class BoundaryIndex<TetWalker>;

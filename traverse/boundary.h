@@ -1,6 +1,7 @@
 /// Where a ray comes into a mesh: Embree finds candidates, the edges decide.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -20,6 +21,15 @@ struct Entry {
   std::uint32_t ranks = 1;  ///< ways in through this face
 };
 
+/// The next few entries of a ray, in order: enough for most rays in one query.
+struct EntryList {
+  static constexpr std::uint32_t kCapacity = 4;
+  std::array<Entry, kCapacity> entries;
+  std::uint32_t size = 0;
+  /// There may be more behind the last one.
+  bool more = false;
+};
+
 /// A bounding volume hierarchy (Embree's, in robust mode) over a mesh's boundary faces.
 ///
 /// The faces' boxes are widened by more than rounding can move a face against the ray, so that
@@ -36,13 +46,52 @@ class BoundaryIndex {
   BoundaryIndex(BoundaryIndex&&) noexcept;
   BoundaryIndex& operator=(BoundaryIndex&&) noexcept;
 
-  /// The first entry of the ray, or the next one after `previous`; nothing where there is none.
-  std::optional<Entry> next_entry(const Walker& walker, const ShearedFrame& frame,
-                                  const Entry* previous) const;
+  /// The first entries of the ray, or the next ones after `previous`.
+  EntryList next_entries(const Walker& walker, const ShearedFrame& frame,
+                         const Entry* previous = nullptr) const;
 
  private:
   struct Implementation;
   std::unique_ptr<Implementation> implementation_;
+};
+
+/// A ray's entries one by one, fetched in lists. The referenced objects must outlive it.
+template <class Walker>
+class Entries {
+ public:
+  /// The first entry; nothing where there is none.
+  std::optional<Entry> first(const BoundaryIndex<Walker>& boundary, const Walker& walker,
+                             const ShearedFrame& frame) {
+    list_ = boundary.next_entries(walker, frame);
+    at_ = 0;
+    return current();
+  }
+  /// The entry after that. Requires that there was one.
+  std::optional<Entry> next(const BoundaryIndex<Walker>& boundary, const Walker& walker,
+                            const ShearedFrame& frame) {
+    Entry& entry = list_.entries[at_];
+    if (entry.rank + 1 < entry.ranks) {
+      ++entry.rank;
+      return entry;
+    }
+    if (at_ + 1 == list_.size && list_.more) {
+      const Entry previous = entry;
+      list_ = boundary.next_entries(walker, frame, &previous);
+      at_ = 0;
+      return current();
+    }
+    ++at_;
+    return current();
+  }
+
+ private:
+  std::optional<Entry> current() const {
+    if (at_ >= list_.size) return std::nullopt;
+    return list_.entries[at_];
+  }
+
+  EntryList list_;
+  std::uint32_t at_ = 0;
 };
 
 extern template class BoundaryIndex<TetWalker>;

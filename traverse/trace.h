@@ -49,8 +49,9 @@ TraceResult trace(const typename Walker::Mesh& mesh, const BoundaryIndex<Walker>
   const std::uint64_t longest = 64 * static_cast<std::uint64_t>(mesh.cell_count()) + 64;
 
   double seen_until = ray.t_min;
-  std::optional<Entry> entry = boundary.next_entry(walker, frame, nullptr);
-  for (; entry; entry = boundary.next_entry(walker, frame, &*entry)) {
+  Entries<Walker> entries;
+  std::optional<Entry> entry = entries.first(boundary, walker, frame);
+  for (; entry; entry = entries.next(boundary, walker, frame)) {
     double t_in = frame.t(entry->place.z);
     if (t_in > ray.t_max) break;
     ++result.entries;

@@ -111,7 +111,7 @@ PluckerWalk walk_plucker(const PluckerMesh& mesh, const PluckerRay& ray,
   auto load = [&](std::uint32_t id) {
     const WalkablePoint& p = mesh.points[id];
     Vertex v{id, p.position[0], p.position[1], p.position[2], 0, p.scalar};
-#if FORM == 1
+#if FORM == 1 || FORM == 3
     v.x -= ray.o[0]; v.y -= ray.o[1]; v.z -= ray.o[2];
 #endif
     if constexpr (kMeasure) v.t = dx * v.x + dy * v.y + dz * v.z;
@@ -121,6 +121,8 @@ PluckerWalk walk_plucker(const PluckerMesh& mesh, const PluckerRay& ray,
   auto moment = [&](const Vertex& e) -> M {
 #if FORM == 2
     return {dy * e.z - dz * e.y - qx, dz * e.x - dx * e.z - qy, dx * e.y - dy * e.x - qz, qx * e.x + qy * e.y + qz * e.z};
+#elif FORM == 3
+    return {dy * e.z - dz * e.y, dz * e.x - dx * e.z, dx * e.y - dy * e.x, 0};
 #else
     (void)e;
     return {};
@@ -135,6 +137,9 @@ PluckerWalk walk_plucker(const PluckerMesh& mesh, const PluckerRay& ray,
 #elif FORM == 1
     (void)m;
     return dx * (e.y * s.z - e.z * s.y) + dy * (e.z * s.x - e.x * s.z) + dz * (e.x * s.y - e.y * s.x);
+#elif FORM == 3
+    (void)e;
+    return m.x * s.x + m.y * s.y + m.z * s.z;
 #else
     return m.x * s.x + m.y * s.y + m.z * s.z + m.c;
 #endif

@@ -71,7 +71,7 @@ void expect_twins(const Case& c) {
     ShearedFrame frame;
     ASSERT_TRUE(frame.set(make_ray(i), tets.frame));
     TetWalker walker(tets, frame);
-    const auto entry = boundary.next_entry(walker, frame, nullptr);
+    const auto entry = Entries<TetWalker>().first(boundary, walker, frame);
     if (!entry) continue;
     walker.enter(tets.boundary[entry->boundary], entry->rank);
     starts[static_cast<std::size_t>(frame.axis())].push_back(

@@ -1,0 +1,296 @@
+// Modes, channels, cameras and what render() promises besides pictures.
+
+#include "plume/lib/render.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "plume/datasets/generate.h"
+#include "plume/lib/plume.h"
+#include "plume/tests/reference/box_chord.h"
+
+namespace plume::test {
+namespace {
+
+const char* const kForms[] = {"box-tetrahedra", "box-hexahedra", "box-mixed"};
+
+// x + 2y + 3z along a ray.
+double linear_at(const Ray& ray, double t) {
+  double s = 0;
+  for (std::size_t a = 0; a < 3; ++a)
+    s += (static_cast<double>(a) + 1) * (ray.origin[a] + t * ray.direction[a]);
+  return s;
+}
+
+struct Shot {
+  Scene scene;
+  Camera camera;
+  RenderSettings settings;
+
+  explicit Shot(const std::string& form)
+      : scene(generate(form, {5, 0.2, 3}), {{"linear", {}}, true}),
+        camera(fitted_camera(scene.bounds(), {-0.5, 0.4, -0.77})) {
+    settings.width = 40;
+    settings.height = 30;
+    scene.set_transfer_function({{{0, {1, {1, 1, 1}}}, {6, {2, {1, 0, 0}}}}});
+  }
+
+  // Calls check(pixel index, ray, span) for rays that clearly hit the box or clearly miss it.
+  template <class Check>
+  void for_each_ray(const Check& check) const {
+    const PixelRays rays(camera, settings.width, settings.height);
+    for (int y = 0; y < settings.height; ++y)
+      for (int x = 0; x < settings.width; ++x) {
+        const Ray ray = rays(x + 0.5, y + 0.5);
+        const auto span = reference::box_span({0, 0, 0}, {1, 1, 1}, ray.origin, ray.direction);
+        if (std::abs(span[1] - span[0]) < 1e-4) continue;
+        check(static_cast<std::size_t>(y * settings.width + x), ray, span);
+      }
+  }
+};
+
+TEST(Render, IntegralOfALinearFieldIsExact) {
+  for (const char* form : kForms) {
+    SCOPED_TRACE(form);
+    Shot shot(form);
+    shot.settings.mode = Mode::integral;
+    const Image image = render(shot.scene, shot.camera, shot.settings).image;
+    const Channel* integral = image.channel("integral");
+    ASSERT_NE(integral, nullptr);
+    shot.for_each_ray([&](std::size_t i, const Ray& ray, const std::array<double, 2>& span) {
+      const double length = std::max(0.0, span[1] - span[0]);
+      const double expected =
+          length > 0 ? 0.5 * (linear_at(ray, span[0]) + linear_at(ray, span[1])) * length : 0;
+      ASSERT_NEAR(integral->values[i], expected, 1e-5) << "pixel " << i;
+    });
+  }
+}
+
+TEST(Render, MaximumOfALinearFieldIsAtAnEndOfTheRay) {
+  for (const char* form : kForms) {
+    SCOPED_TRACE(form);
+    Shot shot(form);
+    shot.settings.mode = Mode::maximum;
+    const Image image = render(shot.scene, shot.camera, shot.settings).image;
+    const Channel* maximum = image.channel("maximum");
+    ASSERT_NE(maximum, nullptr);
+    shot.for_each_ray([&](std::size_t i, const Ray& ray, const std::array<double, 2>& span) {
+      if (span[1] < span[0]) {
+        ASSERT_TRUE(std::isnan(maximum->values[i]));
+        ASSERT_EQ(image.rgba[4 * i + 3], 0);
+        return;
+      }
+      const double expected = std::max(linear_at(ray, span[0]), linear_at(ray, span[1]));
+      ASSERT_NEAR(maximum->values[i], expected, 1e-5) << "pixel " << i;
+      const Optics optics = shot.scene.transfer_function().at(maximum->values[i]);
+      for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(image.rgba[4 * i + c], optics.color[c]);
+    });
+  }
+}
+
+TEST(Render, DepthIsTheDistanceToTheFirstContribution) {
+  for (const char* form : kForms) {
+    SCOPED_TRACE(form);
+    Shot shot(form);
+    shot.settings.mode = Mode::depth;
+    const Image image = render(shot.scene, shot.camera, shot.settings).image;
+    shot.for_each_ray([&](std::size_t i, const Ray&, const std::array<double, 2>& span) {
+      const float depth = image.channel("depth")->values[i];
+      if (span[1] < span[0])
+        ASSERT_TRUE(std::isinf(depth));
+      else
+        ASSERT_NEAR(depth, span[0], 1e-5) << "pixel " << i;
+    });
+  }
+}
+
+TEST(Render, ChannelsHoldWhatTheyAreNamedFor) {
+  for (const char* form : kForms) {
+    SCOPED_TRACE(form);
+    Shot shot(form);
+    shot.settings.channels = {"depth", "optical_depth", "cell_id", "cell_count"};
+    const RenderResult result = render(shot.scene, shot.camera, shot.settings);
+    const Image& image = result.image;
+    double cells = 0;
+    for (const float count : image.channel("cell_count")->values) cells += count;
+    EXPECT_EQ(cells, static_cast<double>(result.statistics.cells_visited));
+    shot.for_each_ray([&](std::size_t i, const Ray& ray, const std::array<double, 2>& span) {
+      const float cell = image.channel("cell_id")->values[i];
+      const float depth = image.channel("optical_depth")->values[i];
+      if (span[1] < span[0]) {
+        ASSERT_EQ(cell, -1);
+        ASSERT_EQ(depth, 0);
+        return;
+      }
+      // The transfer function's extinction is 1 + s / 6.
+      const double mean = 1 + (linear_at(ray, span[0]) + linear_at(ray, span[1])) / 12;
+      ASSERT_NEAR(depth, mean * (span[1] - span[0]), 1e-5);
+      ASSERT_NEAR(image.rgba[4 * i + 3], -std::expm1(-depth), 1e-5);
+      // The cell at the ray's entry, found in a different way.
+      std::uint32_t first = 0xFFFFFFFFu;
+      shot.scene.trace(ray, [&](const Segment& segment) {
+        first = segment.cell;
+        return false;
+      });
+      ASSERT_EQ(cell, static_cast<float>(first));
+    });
+  }
+}
+
+TEST(Render, ShowsTheSameForAnyNumberOfThreads) {
+  for (const char* form : kForms) {
+    Shot shot(form);
+    shot.settings.threads = 1;
+    const RenderResult one = render(shot.scene, shot.camera, shot.settings);
+    shot.settings.threads = 2;
+    const RenderResult two = render(shot.scene, shot.camera, shot.settings);
+    EXPECT_EQ(one.image.rgba, two.image.rgba) << form;
+    EXPECT_EQ(one.statistics.cells_visited, two.statistics.cells_visited) << form;
+  }
+}
+
+TEST(Render, ReportsProgressAndStopsWhenAsked) {
+  Shot shot("box-tetrahedra");
+  shot.settings.width = shot.settings.height = 256;
+  double last = 0;
+  RenderResult whole = render(shot.scene, shot.camera, shot.settings, [&](double share) {
+    EXPECT_GT(share, last);
+    last = share;
+    return true;
+  });
+  EXPECT_EQ(last, 1);
+  EXPECT_FALSE(whole.cancelled);
+  int calls = 0;
+  const RenderResult stopped = render(shot.scene, shot.camera, shot.settings, [&](double) {
+    ++calls;
+    return false;
+  });
+  EXPECT_TRUE(stopped.cancelled);
+  EXPECT_EQ(calls, 1);
+  EXPECT_LT(stopped.statistics.cells_visited, whole.statistics.cells_visited);
+}
+
+TEST(Render, AScaledAndMovedMeshLooksTheSame) {
+  const Mesh mesh = generate("box-tetrahedra", {5, 0.2, 3});
+  auto picture = [&](double scale, double offset) {
+    Mesh moved = mesh;
+    std::vector<double> points(mesh.points.size());
+    for (std::size_t i = 0; i < points.size(); ++i)
+      points[i] = mesh.points.at<double>(i) * scale + offset;
+    moved.points = Array::own(std::move(points));
+    const Scene scene(moved, {{"linear", {}}, false});
+    RenderSettings settings;
+    settings.width = settings.height = 48;
+    return render(scene, named_view("iso", scene.bounds()), settings).image;
+  };
+  const Image plain = picture(1, 0);
+  for (const auto& [scale, offset] :
+       {std::pair{0x1p-30, 0.0}, {1e-6, 0.0}, {1e6, 0.0}, {1e9, 1e9}, {1.0, 1e6}}) {
+    const Image other = picture(scale, offset);
+    for (std::size_t i = 0; i < plain.rgba.size(); ++i)
+      ASSERT_NEAR(plain.rgba[i], other.rgba[i], 1e-4) << scale << ' ' << offset << ' ' << i;
+  }
+}
+
+std::string error_of(const RenderSettings& settings, Camera camera) {
+  const Scene scene(generate("box-tetrahedra", {2, 0, 1}));
+  try {
+    render(scene, camera, settings);
+  } catch (const Error& error) {
+    return error.what();
+  }
+  return "no error";
+}
+
+TEST(Render, NamesTheSettingThatIsWrong) {
+  const Camera camera = named_view("iso", {{0, 0, 0}, {1, 1, 1}});
+  RenderSettings settings;
+  settings.width = 0;
+  EXPECT_EQ(error_of(settings, camera), "a picture of 0x768 pixels: each side must be 1 to 65536");
+  settings = {};
+  settings.channels = {"colour"};
+  EXPECT_NE(error_of(settings, camera).find("no channel 'colour'; there are: depth"),
+            std::string::npos);
+  settings = {};
+  settings.early_termination = 1;
+  EXPECT_NE(error_of(settings, camera).find("early termination at 1"), std::string::npos);
+  settings = {};
+  settings.integrator.samples = 0;
+  EXPECT_NE(error_of(settings, camera).find("0 samples"), std::string::npos);
+}
+
+TEST(Camera, NamesWhatMakesNoPicture) {
+  Camera camera;
+  camera.focal_point = camera.position;
+  EXPECT_NE(error_of({}, camera).find("is the focal point"), std::string::npos);
+  camera = {};
+  camera.view_up = {0, 0, 2};
+  EXPECT_NE(error_of({}, camera).find("along the line of sight"), std::string::npos);
+  camera = {};
+  camera.view_angle = 180;
+  EXPECT_NE(error_of({}, camera).find("a view angle of 180 degrees"), std::string::npos);
+  camera = {};
+  camera.parallel = true;
+  camera.parallel_scale = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(error_of({}, camera).find("a parallel scale of nan"), std::string::npos);
+}
+
+TEST(Camera, FitsTheBounds) {
+  const Bounds bounds{{-1, 2, 3}, {5, 3, 4}};
+  for (const std::string& view : view_names())
+    for (const double aspect : {0.5, 1.0, 2.0})
+      for (const bool parallel : {false, true}) {
+        Camera camera = named_view(view, bounds, aspect);
+        camera.parallel = parallel;
+        // Every corner is seen: the ray through the picture's edge passes outside of it. Turned
+        // around, the corners' places in the picture, from the camera's own axes.
+        const PixelRays rays(camera, static_cast<int>(100 * aspect), 100);
+        const Ray middle = rays(50 * aspect, 50);
+        const Ray right = rays(100 * aspect, 50), top = rays(50 * aspect, 0);
+        for (int corner = 0; corner < 8; ++corner) {
+          std::array<double, 3> p;
+          for (std::size_t a = 0; a < 3; ++a)
+            p[a] = (corner >> a & 1) != 0 ? bounds.high[a] : bounds.low[a];
+          auto inside = [&](const Ray& edge) {
+            // Depth of the corner along the line of sight, and how far the edge's ray is from the
+            // middle there, against the corner's own distance in that direction.
+            double depth = 0, edge_depth = 0;
+            for (std::size_t a = 0; a < 3; ++a) {
+              depth += (p[a] - middle.origin[a]) * middle.direction[a];
+              edge_depth += edge.direction[a] * middle.direction[a];
+            }
+            double reach = 0, along = 0;
+            for (std::size_t a = 0; a < 3; ++a) {
+              const double offset = edge.origin[a] + edge.direction[a] * depth / edge_depth -
+                                    middle.origin[a] - middle.direction[a] * depth;
+              reach += offset * offset;
+              along += offset * (p[a] - middle.origin[a] - middle.direction[a] * depth);
+            }
+            return std::abs(along) <= reach;
+          };
+          EXPECT_TRUE(inside(right)) << view << ' ' << aspect << ' ' << parallel;
+          EXPECT_TRUE(inside(top)) << view << ' ' << aspect << ' ' << parallel;
+        }
+      }
+}
+
+TEST(Camera, OrbitsAndZooms) {
+  Camera camera;
+  camera.position = {0, -5, 0};
+  camera.view_up = {0, 0, 1};
+  orbit(camera, 90, 0);
+  EXPECT_NEAR(camera.position[0], 5, 1e-12);
+  EXPECT_NEAR(camera.position[1], 0, 1e-12);
+  orbit(camera, 0, 90);
+  EXPECT_NEAR(camera.position[2], 5, 1e-12);
+  zoom(camera, 2);
+  EXPECT_EQ(camera.view_angle, 15);
+  EXPECT_THROW(zoom(camera, 0), Error);
+  EXPECT_THROW(named_view("up", {}), Error);
+}
+
+}  // namespace
+}  // namespace plume::test
