@@ -130,13 +130,9 @@ HWY_INLINE void Composite(const Load& load, const PieceTable& table, MF active, 
     VF part = hn::IfThenElse(last, rest,
                              hn::Min(rest, hn::Mul(hn::Abs(hn::Sub(next, scalar)), per_scalar)));
     const VF extinction = range.c, slope = range.d;
-    const VU second = hn::Add(hn::Mul(piece, hn::Set(du, 3)), one_piece);
-    const Record color = load(pieces, second);
-    const Record color_slope = load(pieces, hn::Add(second, one_piece));
-    const VF base = color.d;
-    const VF from_base = hn::Sub(scalar, base);
-    const VF front = hn::Max(zero, hn::MulAdd(from_base, slope, extinction));
-    const VF back = hn::Max(zero, hn::MulAdd(hn::Sub(next, base), slope, extinction));
+    const VF from_low = hn::Sub(scalar, range.a);
+    const VF front = hn::Max(zero, hn::MulAdd(from_low, slope, extinction));
+    const VF back = hn::Max(zero, hn::MulAdd(hn::Sub(next, range.a), slope, extinction));
     const VF half_part = hn::Mul(half, part);
     VF mean = hn::Mul(hn::Add(front, back), half_part);
     VF difference = hn::Mul(hn::Sub(back, front), half_part);
@@ -154,17 +150,25 @@ HWY_INLINE void Composite(const Load& load, const PieceTable& table, MF active, 
       part = hn::IfThenElse(deep, h, part);
       last = hn::AndNot(deep, last);
     }
-    const VF visible = hn::IfThenElseZero(active, sums.transmittance);
-    const VF weight = hn::Mul(visible, Absorbed(mean));
-    const VF turn = hn::Mul(hn::Mul(visible, Chi(mean, difference)), hn::Sub(next, scalar));
-    auto add = [&](VF& sum, VF value, VF value_slope) {
-      sum = hn::MulAdd(weight, hn::MulAdd(from_base, value_slope, value), sum);
-      sum = hn::MulAdd(turn, value_slope, sum);
-    };
-    add(sums.r, color.a, color_slope.a);
-    add(sums.g, color.b, color_slope.b);
-    add(sums.b, color.c, color_slope.c);
-    sums.transmittance = hn::Sub(sums.transmittance, weight);
+    // Where no lane meets any extinction, as in the clear ranges of most transfer functions, no
+    // colour is fetched.
+    const MF seen = hn::And(active, hn::Gt(mean, zero));
+    if (!hn::AllFalse(d, seen)) {
+      const VU second = hn::Add(hn::Mul(piece, hn::Set(du, 3)), one_piece);
+      const Record color = load(pieces, second);
+      const Record color_slope = load(pieces, hn::Add(second, one_piece));
+      const VF visible = hn::IfThenElseZero(seen, sums.transmittance);
+      const VF weight = hn::Mul(visible, Absorbed(mean));
+      const VF turn = hn::Mul(hn::Mul(visible, Chi(mean, difference)), hn::Sub(next, scalar));
+      auto add = [&](VF& sum, VF value, VF value_slope) {
+        sum = hn::MulAdd(weight, hn::MulAdd(from_low, value_slope, value), sum);
+        sum = hn::MulAdd(turn, value_slope, sum);
+      };
+      add(sums.r, color.a, color_slope.a);
+      add(sums.g, color.b, color_slope.b);
+      add(sums.b, color.c, color_slope.c);
+      sums.transmittance = hn::Sub(sums.transmittance, weight);
+    }
 
     active = hn::AndNot(last, active);
     // What lies behind a transparency of 1e-9 changes no float between 0 and 1.

@@ -7,7 +7,6 @@ namespace plume {
 
 PieceTable::PieceTable(const TransferFunction& transfer_function) {
   const auto& knots = transfer_function.knots;
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
   // Slopes in double: knots may lie far apart or close together.
   auto slope = [](float a, float b, double width) {
     constexpr double kMost = std::numeric_limits<float>::max();
@@ -15,24 +14,23 @@ PieceTable::PieceTable(const TransferFunction& transfer_function) {
                ? static_cast<float>(std::clamp((b - static_cast<double>(a)) / width, -kMost, kMost))
                : 0.0f;
   };
-  auto add = [&](float low, float high, float base, const Optics& front, const Optics& back) {
+  auto add = [&](float low, float high, const Optics& front, const Optics& back) {
     const double width = static_cast<double>(high) - low;
-    Piece piece{
-        low, high, front.extinction, slope(front.extinction, back.extinction, width), {}, base,
-        {},  0};
+    Piece piece{low, high, front.extinction, slope(front.extinction, back.extinction, width), {}, 0,
+                {},  0};
     for (std::size_t c = 0; c < 3; ++c) {
       piece.color[c] = front.color[c];
       piece.color_slope[c] = slope(front.color[c], back.color[c], width);
     }
     pieces.push_back(piece);
   };
-  const auto& first = knots.front();
-  add(-kInfinity, first.scalar, first.scalar, first.optics, first.optics);
+  // Not from -infinity: the distance to low is multiplied by a slope of zero.
+  add(std::numeric_limits<float>::lowest(), knots.front().scalar, knots.front().optics,
+      knots.front().optics);
   for (std::size_t i = 0; i + 1 < knots.size(); ++i)
-    add(knots[i].scalar, knots[i + 1].scalar, knots[i].scalar, knots[i].optics,
-        knots[i + 1].optics);
-  const auto& last = knots.back();
-  add(last.scalar, kInfinity, last.scalar, last.optics, last.optics);
+    add(knots[i].scalar, knots[i + 1].scalar, knots[i].optics, knots[i + 1].optics);
+  add(knots.back().scalar, std::numeric_limits<float>::infinity(), knots.back().optics,
+      knots.back().optics);
 }
 
 std::size_t PieceTable::piece_at(float scalar) const {

@@ -9,14 +9,14 @@
 namespace plume {
 
 /// Piece i covers the scalars from low to high; before the first knot and behind the last lie
-/// pieces without end on which nothing changes. With r = scalar - base, extinction is extinction +
+/// pieces without end on which nothing changes. With r = scalar - low, extinction is extinction +
 /// r * extinction_slope, and each colour likewise. A step is a piece of no width.
 struct PieceTable {
   /// Three times four floats, so that a lane's is fetched with three loads.
   struct Piece {
     float low, high, extinction, extinction_slope;
-    float color[3], base;
-    float color_slope[3], unused;
+    float color[3], unused;
+    float color_slope[3], unused_too;
   };
 
   /// Requires !transfer_function.problem().

@@ -140,12 +140,13 @@ class Lines {
   }
 
   /// One that meets vertices or edges, of the kind `kind % kDegenerateKinds`.
-  static constexpr std::size_t kDegenerateKinds = 7;
+  static constexpr std::size_t kDegenerateKinds = 8;
   Line degenerate(std::size_t kind) {
     const auto& cell = exact_.tetrahedra()[random_.below(exact_.tetrahedra().size())];
     const std::size_t first = random_.below(4);
     const Point a = exact_.points()[cell[first]], b = exact_.points()[cell[(first + 1) % 4]],
-                c = exact_.points()[cell[(first + 2) % 4]];
+                c = exact_.points()[cell[(first + 2) % 4]],
+                d = exact_.points()[cell[(first + 3) % 4]];
     switch (kind % kDegenerateKinds) {
       case 0:
         return through(a);
@@ -167,6 +168,10 @@ class Lines {
       }
       case 5:
         return along(a, difference(a, any_vertex_but(a)));
+      case 6: {  // from an edge to the one across
+        const Point middle = combine(a, 0.5, difference(a, b), 0, {});
+        return along(middle, difference(middle, combine(c, 0.5, difference(c, d), 0, {})));
+      }
       default:
         return {a, any_vertex_but(a)};
     }
