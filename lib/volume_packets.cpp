@@ -1,6 +1,7 @@
 #include "plume/lib/volume_packets.h"
 
 #include <algorithm>
+#include <type_traits>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "plume/lib/volume_packets.cpp"
@@ -14,10 +15,34 @@ namespace HWY_NAMESPACE {
 
 constexpr std::size_t kPackets = 4;
 
+// A table of any size, its pieces fetched like the points.
+class FetchedTable {
+ public:
+  explicit FetchedTable(const PieceTable& table) : first_(&table.pieces.data()->low) {
+    static_assert(sizeof(PieceTable::Piece) == 12 * sizeof(float));
+  }
+  HWY_INLINE optics::Record range(VU piece) const { return four(0, piece); }
+  HWY_INLINE optics::Record color(VU piece) const { return four(1, piece); }
+  HWY_INLINE optics::Record color_slope(VU piece) const { return four(2, piece); }
+
+ private:
+  HWY_INLINE optics::Record four(std::uint32_t which, VU piece) const {
+    const DU du;
+    HWY_ALIGN std::uint32_t indices[kMaxLanes];
+    hn::Store(hn::Add(hn::Mul(piece, hn::Set(du, 3)), hn::Set(du, which)), du, indices);
+    const FourFloats values = LoadFour(first_, indices);
+    return {values.a, values.b, values.c, values.d};
+  }
+
+  const float* first_;
+};
+
+template <class Pieces>
 struct VolumeConsumer {
   static constexpr bool kMeasure = true;
 
   const PieceTable& table;
+  const Pieces& pieces;
   const float* cell_values;  // null where the field is on points
   float enough;              // transmittance at which a ray ends
   std::span<PacketColor> colors;
@@ -53,13 +78,7 @@ struct VolumeConsumer {
     optics::Sums sums{hn::Load(d, mine.r), hn::Load(d, mine.g), hn::Load(d, mine.b),
                       hn::Load(d, mine.transmittance)};
     VU piece = hn::Load(du, mine.piece);
-    auto load = [](const float* base, VU indices) {
-      HWY_ALIGN std::uint32_t stored[kMaxLanes];
-      hn::Store(indices, DU(), stored);
-      const FourFloats four = LoadFour(base, stored);
-      return optics::Record{four.a, four.b, four.c, four.d};
-    };
-    optics::Composite(load, table, active, s_in, s_out, length, piece, sums);
+    optics::Composite(pieces, active, s_in, s_out, length, piece, sums);
     hn::Store(sums.r, d, mine.r);
     hn::Store(sums.g, d, mine.g);
     hn::Store(sums.b, d, mine.b);
@@ -81,10 +100,17 @@ struct VolumeConsumer {
 void CompositePackets(const WalkableTets& mesh, const PieceTable& table, int axis,
                       float early_termination, PacketFeeder& feeder,
                       std::span<PacketColor> colors) {
-  // Behind a transmittance of 1e-9 nothing changes a float between 0 and 1.
-  VolumeConsumer consumer{table, mesh.cell_values.empty() ? nullptr : mesh.cell_values.data(),
-                          std::max(early_termination, 1e-9f), colors};
-  WalkAlong<kPackets>(mesh, axis, consumer, feeder);
+  auto composite = [&](const auto& pieces) {
+    // Behind a transmittance of 1e-9 nothing changes a float between 0 and 1.
+    VolumeConsumer<std::decay_t<decltype(pieces)>> consumer{
+        table, pieces, mesh.cell_values.empty() ? nullptr : mesh.cell_values.data(),
+        std::max(early_termination, 1e-9f), colors};
+    WalkAlong<kPackets>(mesh, axis, consumer, feeder);
+  };
+#if HWY_TARGET != HWY_SCALAR
+  if (optics::SmallTable::fits(table)) return composite(optics::SmallTable(table));
+#endif
+  composite(FetchedTable(table));
 }
 
 }  // namespace HWY_NAMESPACE

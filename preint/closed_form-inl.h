@@ -79,18 +79,48 @@ HWY_INLINE VF Chi(VF m, VF d) {
   return hn::MulAdd(sum, d, hn::Mul(x0, m));
 }
 
-// Four floats a lane.
+// Four floats a lane: of a piece's range low, high, extinction and its slope; of a colour r, g, b.
 struct Record {
   VF a, b, c, d;
 };
 
-// Composites one segment a lane: the scalar runs linearly from s_in to s_out, `length` >= 0 in
-// world units. `piece` is that of the last segment's end, or any; it is left at this one's. Lanes
-// that are not active, or have a NaN, keep their sums. `load(base, indices)` fetches the Record at
-// base + 4 * index of each lane: how that is done best is known to who walks.
-template <class Load>
-HWY_INLINE void Composite(const Load& load, const PieceTable& table, MF active, VF s_in, VF s_out,
-                          VF length, VU& piece, Sums& sums) {
+#if HWY_TARGET != HWY_SCALAR
+// A table of as many pieces as there are lanes, or fewer: entries are permuted, not fetched.
+class SmallTable {
+ public:
+  static bool fits(const PieceTable& table) { return table.pieces.size() <= hn::Lanes(DF()); }
+
+  explicit SmallTable(const PieceTable& table) {
+    static_assert(sizeof(PieceTable::Piece) == 12 * sizeof(float));
+    for (std::size_t i = 0; i < 16; ++i) {
+      const auto& piece = table.pieces[i < table.pieces.size() ? i : 0];
+      const float* const from = &piece.low;
+      for (std::size_t f = 0; f < 12; ++f) values_[f][i] = from[f];
+    }
+  }
+  HWY_INLINE Record range(VU piece) const { return four(0, piece); }
+  HWY_INLINE Record color(VU piece) const { return four(4, piece); }
+  HWY_INLINE Record color_slope(VU piece) const { return four(8, piece); }
+
+ private:
+  HWY_INLINE Record four(std::size_t first, VU piece) const {
+    const DF d;
+    const auto lane = hn::IndicesFromVec(d, piece);
+    auto entry = [&](std::size_t f) { return hn::TableLookupLanes(hn::Load(d, values_[f]), lane); };
+    return {entry(first), entry(first + 1), entry(first + 2), entry(first + 3)};
+  }
+
+  HWY_ALIGN float values_[12][16];
+};
+#endif
+
+// Composites one segment a lane: the scalar runs linearly from s_in to s_out, `length` >= 0 in world
+// units. `piece` is that of the last segment's end, or any; it is left at this one's. Lanes that
+// are not active, or have a NaN, keep their sums. `pieces` is the table: SmallTable, or one that
+// fetches from memory (how that is done best is known to who walks).
+template <class Table>
+HWY_INLINE void Composite(const Table& pieces, MF active, VF s_in, VF s_out, VF length, VU& piece,
+                          Sums& sums) {
   const DF d;
   const DU du;
   const VF zero = hn::Zero(d);
@@ -102,12 +132,9 @@ HWY_INLINE void Composite(const Load& load, const PieceTable& table, MF active, 
   const MF rising = hn::Ge(s_out, s_in);
 
   // The piece that the segment begins in: mostly where the last one ended.
-  const float* const pieces = &table.pieces.data()->low;
-  static_assert(sizeof(PieceTable::Piece) == 12 * sizeof(float));
-  Record range;  // low, high, extinction, its slope
-  auto load_range = [&] { range = load(pieces, hn::Mul(piece, hn::Set(du, 3))); };
+  Record range;
   for (;;) {
-    load_range();
+    range = pieces.range(piece);
     const VF lower = range.a, upper = range.b;
     const MF above =
         hn::And(active, hn::Or(hn::Gt(s_in, upper), hn::And(rising, hn::Eq(s_in, upper))));
@@ -154,9 +181,8 @@ HWY_INLINE void Composite(const Load& load, const PieceTable& table, MF active, 
     // colour is fetched.
     const MF seen = hn::And(active, hn::Gt(mean, zero));
     if (!hn::AllFalse(d, seen)) {
-      const VU second = hn::Add(hn::Mul(piece, hn::Set(du, 3)), one_piece);
-      const Record color = load(pieces, second);
-      const Record color_slope = load(pieces, hn::Add(second, one_piece));
+      const Record color = pieces.color(piece);
+      const Record color_slope = pieces.color_slope(piece);
       const VF visible = hn::IfThenElseZero(seen, sums.transmittance);
       const VF weight = hn::Mul(visible, Absorbed(mean));
       const VF turn = hn::Mul(hn::Mul(visible, Chi(mean, difference)), hn::Sub(next, scalar));
@@ -179,7 +205,7 @@ HWY_INLINE void Composite(const Load& load, const PieceTable& table, MF active, 
     const auto move = hn::RebindMask(du, hn::AndNot(deep, active));
     const VU stride = hn::IfThenElse(hn::RebindMask(du, rising), one_piece, hn::Set(du, ~0u));
     piece = hn::Add(piece, hn::IfThenElseZero(move, stride));
-    load_range();
+    range = pieces.range(piece);
   }
 }
 
