@@ -23,16 +23,29 @@ bool PacketTile::prepare(std::size_t index, const std::optional<Entry>& entry, d
 }
 
 void PacketTile::add(const Ray& ray) {
-  const std::size_t index = rays_.size();
   TileRay& added = rays_.emplace_back();
-  if (!added.frame.set(ray, mesh_.frame)) return;
-  const TetWalker walker(mesh_, added.frame);
-  const auto entry = added.all_entries.first(boundary_, walker, added.frame);
-  if (entry && added.frame.t(entry->place.z) < ray.t_min) {
-    added.declined = true;
-    return;
+  added.valid = added.frame.set(ray, mesh_.frame);
+  added.t_min = ray.t_min;
+}
+
+void PacketTile::find_first_entries() {
+  frames_.clear();
+  found_.clear();
+  for (TileRay& ray : rays_) {
+    if (!ray.valid) continue;
+    frames_.push_back(&ray.frame);
+    found_.push_back(&ray.all_entries.list());
   }
-  added.waiting = entry && prepare(index, entry, entry->place.z);
+  boundary_.first_entries(frames_, found_);
+  for (std::size_t index = 0; index < rays_.size(); ++index) {
+    TileRay& ray = rays_[index];
+    const auto entry = ray.all_entries.first();
+    if (!entry) continue;
+    if (ray.frame.t(entry->place.z) < ray.t_min)
+      ray.declined = true;
+    else
+      ray.waiting = prepare(index, entry, entry->place.z);
+  }
 }
 
 // Rays of one axis; one that has left is let in again where there is another entry.
@@ -68,6 +81,7 @@ class PacketTile::Feeder : public PacketFeeder {
 
 void PacketTile::composite() {
   colors_.assign(rays_.size(), PacketColor{});
+  find_first_entries();
   for (int axis = 0; axis < 3; ++axis) {
     Feeder feeder(*this, axis);
     composite_packets(mesh_, table_, axis, early_termination_, feeder, colors_);

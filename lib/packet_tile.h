@@ -43,6 +43,8 @@ class PacketTile {
  private:
   struct TileRay {
     ShearedFrame frame;
+    double t_min = 0;
+    bool valid = false;  // has a direction
     Entries<TetWalker> all_entries;
     PacketStart start;
     std::uint32_t entries = 0;
@@ -51,6 +53,7 @@ class PacketTile {
   };
   class Feeder;
 
+  void find_first_entries();
   bool prepare(std::size_t ray, const std::optional<Entry>& entry, double seen_until);
 
   const WalkableTets& mesh_;
@@ -59,6 +62,8 @@ class PacketTile {
   const float early_termination_;
   std::vector<TileRay> rays_;
   std::vector<PacketColor> colors_;
+  std::vector<const ShearedFrame*> frames_;
+  std::vector<EntryList*> found_;
 };
 
 }  // namespace plume

@@ -60,14 +60,19 @@ void face_bounds(const RTCBoundsFunctionArguments* args) {
   box.upper_z = high[2] + kMargin;
 }
 
-// What a query carries through Embree.
+// What a ray of a query carries through Embree; rays know theirs by their id.
+template <class Walker>
+struct QueryRay {
+  const Walker* walker = nullptr;
+  const ShearedFrame* frame = nullptr;
+  const Entry* previous = nullptr;
+  EntryList* found = nullptr;
+};
+
 template <class Walker>
 struct Query {
   RTCIntersectContext context;  // first: Embree hands it back, and so the whole
-  const Walker* walker;
-  const ShearedFrame* frame;
-  const Entry* previous;
-  EntryList found;
+  const QueryRay<Walker>* rays;
 };
 
 bool before(const Entry& a, const Entry& b, int sign) {
@@ -75,21 +80,8 @@ bool before(const Entry& a, const Entry& b, int sign) {
   return a.boundary < b.boundary;
 }
 
-template <class Walker>
-void face_intersect(const RTCIntersectFunctionNArguments* args) {
-  if (args->valid[0] == 0) return;
-  auto& query = *reinterpret_cast<Query<Walker>*>(args->context);
-  const auto& mesh = *static_cast<const typename Walker::Mesh*>(args->geometryUserPtr);
-  const auto& face = mesh.boundary[args->primID];
-  const int winding = query.walker->boundary_winding(face);
-  const int ways_in = -winding * query.frame->sign();
-  if (ways_in <= 0) return;
-  const Entry entry{query.walker->measure_boundary(face, winding), args->primID, 0,
-                    static_cast<std::uint32_t>(ways_in)};
-  if (query.previous && !before(*query.previous, entry, query.frame->sign())) return;
-  // Into the list, by insertion; what falls off its end is found by the next query.
-  EntryList& list = query.found;
-  const int sign = query.frame->sign();
+// Puts an entry into its place in the list; what falls off the end is found by the next query.
+void insert(EntryList& list, const Entry& entry, int sign) {
   if (list.size == EntryList::kCapacity) {
     if (!before(entry, list.entries[list.size - 1], sign)) return;
     --list.size;
@@ -99,16 +91,36 @@ void face_intersect(const RTCIntersectFunctionNArguments* args) {
     list.entries[place] = list.entries[place - 1];
   list.entries[place] = entry;
   list.more = list.size == EntryList::kCapacity;
-  if (!list.more) return;
-  // Only what lies before the last of a full list matters any more; behind it there may be others,
-  // which are not looked for. Another face may lie at the
-  // same place: the margin keeps its box in sight.
-  RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
-  RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, args->N);
-  RTCRayN_tfar(ray, args->N, 0) =
-      query.frame->parameter(list.entries[list.size - 1].place.z) + kMargin;
-  RTCHitN_geomID(hit, args->N, 0) = args->geomID;
-  RTCHitN_primID(hit, args->N, 0) = args->primID;
+}
+
+template <class Walker>
+void face_intersect(const RTCIntersectFunctionNArguments* args) {
+  const auto& query = *reinterpret_cast<const Query<Walker>*>(args->context);
+  const auto& mesh = *static_cast<const typename Walker::Mesh*>(args->geometryUserPtr);
+  const auto& face = mesh.boundary[args->primID];
+  RTCRayN* const rays = RTCRayHitN_RayN(args->rayhit, args->N);
+  RTCHitN* const hits = RTCRayHitN_HitN(args->rayhit, args->N);
+  for (unsigned i = 0; i < args->N; ++i) {
+    if (args->valid[i] == 0) continue;
+    const QueryRay<Walker>& ray = query.rays[RTCRayN_id(rays, args->N, i)];
+    const int sign = ray.frame->sign();
+    const int winding = ray.walker->boundary_winding(face);
+    const int ways_in = -winding * sign;
+    if (ways_in <= 0) continue;
+    const Entry entry{ray.walker->measure_boundary(face, winding), args->primID, 0,
+                      static_cast<std::uint32_t>(ways_in)};
+    if (ray.previous && !before(*ray.previous, entry, sign)) continue;
+    EntryList& list = *ray.found;
+    insert(list, entry, sign);
+    if (!list.more) continue;
+    // Only what lies before the last of a full list matters any more; behind it there may be
+    // others, which are not looked for. Another face may lie at the same place: the margin keeps
+    // its box in sight.
+    RTCRayN_tfar(rays, args->N, i) =
+        ray.frame->parameter(list.entries[list.size - 1].place.z) + kMargin;
+    RTCHitN_geomID(hits, args->N, i) = args->geomID;
+    RTCHitN_primID(hits, args->N, i) = args->primID;
+  }
 }
 
 struct DeviceDeleter {
@@ -128,7 +140,7 @@ struct BoundaryIndex<Walker>::Implementation {
 
 template <class Walker>
 BoundaryIndex<Walker>::BoundaryIndex(const Mesh& mesh)
-    : implementation_(std::make_unique<Implementation>()) {
+    : mesh_(&mesh), implementation_(std::make_unique<Implementation>()) {
   implementation_->device.reset(rtcNewDevice(nullptr));
   RTCDevice device = implementation_->device.get();
   if (device == nullptr)
@@ -163,11 +175,11 @@ BoundaryIndex<Walker>& BoundaryIndex<Walker>::operator=(BoundaryIndex&&) noexcep
 template <class Walker>
 EntryList BoundaryIndex<Walker>::next_entries(const Walker& walker, const ShearedFrame& frame,
                                               const Entry* previous) const {
+  EntryList found;
+  const QueryRay<Walker> ray{&walker, &frame, previous, &found};
   Query<Walker> query{};
   rtcInitIntersectContext(&query.context);
-  query.walker = &walker;
-  query.frame = &frame;
-  query.previous = previous;
+  query.rays = &ray;
   RTCRayHit rayhit{};
   const auto start = frame.start();
   const auto step = frame.step();
@@ -183,7 +195,46 @@ EntryList BoundaryIndex<Walker>::next_entries(const Walker& walker, const Sheare
   rayhit.ray.mask = 0xFFFFFFFFu;
   rayhit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   rtcIntersect1(implementation_->scene.get(), &query.context, &rayhit);
-  return query.found;
+  return found;
+}
+
+template <class Walker>
+void BoundaryIndex<Walker>::first_entries(std::span<const ShearedFrame* const> frames,
+                                          std::span<EntryList* const> found) const {
+  constexpr std::size_t kRays = 16;
+  std::vector<Walker> walkers;
+  walkers.reserve(kRays);
+  for (std::size_t begin = 0; begin < frames.size(); begin += kRays) {
+    const std::size_t size = std::min(kRays, frames.size() - begin);
+    walkers.clear();
+    std::array<QueryRay<Walker>, kRays> rays;
+    alignas(64) std::array<int, kRays> valid{};
+    RTCRayHit16 packet{};  // aligned to 64 bytes by its type
+    for (std::size_t i = 0; i < size; ++i) {
+      const ShearedFrame& frame = *frames[begin + i];
+      walkers.emplace_back(*mesh_, frame);
+      *found[begin + i] = EntryList();
+      rays[i] = {&walkers.back(), &frame, nullptr, found[begin + i]};
+      valid[i] = -1;
+      const auto start = frame.start();
+      const auto step = frame.step();
+      packet.ray.org_x[i] = start[0];
+      packet.ray.org_y[i] = start[1];
+      packet.ray.org_z[i] = start[2];
+      packet.ray.dir_x[i] = step[0];
+      packet.ray.dir_y[i] = step[1];
+      packet.ray.dir_z[i] = step[2];
+      packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
+      packet.ray.mask[i] = 0xFFFFFFFFu;
+      packet.ray.id[i] = static_cast<unsigned>(i);
+      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    }
+    Query<Walker> query{};
+    rtcInitIntersectContext(&query.context);
+    query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+    query.rays = rays.data();
+    rtcIntersect16(valid.data(), implementation_->scene.get(), &query.context, &packet);
+  }
 }
 
 template class BoundaryIndex<TetWalker>;
