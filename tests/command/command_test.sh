@@ -86,6 +86,14 @@ ok "info as JSON" sh -c "'$plume' info mixed.vtu --json > info.json"
 ok "info holds what it should" json info.json \
   "len(j['cells_by_type'])==4 and sum(j['cells_by_type'].values())==j['cells'] and j['components']==1 and j['problems']==[] and j['bounds']['high']==[1,1,1] and j['boundary_faces']>0 and j['memory_bytes']>0 and j['fields'][0]['range'][0]==0"
 
+for name in $("$plume" generate --help | awk '/Make a mesh:/ {on = 1; next} /^Options/ {on = 0} on && NF {print $1}'); do
+  ok "generate $name" "$plume" generate "$name" --size 6 -o "$name.vtu" --quiet
+  for view in +x iso; do
+    ok "render $name along $view" "$plume" render "$name.vtu" --view $view -o g.png --size 64x48 --stats g.json --quiet
+    ok "no ray is lost in $name along $view" json g.json "j['rays_hit']>0 and j['lost_rays']==0 and j['cells_visited']>0"
+  done
+done
+
 for threads in 1 2 3; do
   "$plume" render box.vtu -o t$threads.png --bits 16 --size 70x50 --threads $threads --quiet
 done
