@@ -64,7 +64,7 @@ void match_faces(std::size_t points, std::size_t slots, const Key& key, const Sa
     });
   }
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, points, 1024), [&](const auto& range) {
-    std::vector<std::uint32_t> open;
+    std::vector<std::uint32_t> open, closed;
     for (std::size_t p = range.begin(); p != range.end(); ++p) {
       const auto first = entries.begin() + begin[p];
       const auto last = entries.begin() + begin[p + 1];
@@ -74,7 +74,7 @@ void match_faces(std::size_t points, std::size_t slots, const Key& key, const Sa
         while (end != last && end->second == group->second && end->third == group->third) ++end;
         // Mostly one or two faces; each looks for the first open one that it is the same as.
         open.clear();
-        std::vector<std::uint32_t> closed;
+        closed.clear();
         for (; group != end; ++group) {
           const std::uint32_t slot = group->slot;
           const auto partner = std::find_if(open.begin(), open.end(),
