@@ -86,7 +86,7 @@ class CellWalker {
     thread_local std::vector<ShearedPoint> p;
     p.clear();
     for (const std::uint32_t id : mesh_.loop(face)) p.push_back(frame_(mesh_.points[id]));
-    if (p.size() == 3) return measure_triangle(p[0], p[1], p[2], face_winding);
+    if (p.size() == 3) return measure_triangle(p[0], p[1], p[2]);
     if (p.size() == 4) return measure_patch(p[0], p[1], p[2], p[3], face_winding);
     return measure_polygon(p, face_winding);
   }

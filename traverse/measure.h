@@ -1,9 +1,10 @@
 /// "Faces measure": where a ray crosses a face that the edges have decided it crosses.
 ///
-/// The measurement never overrules the decision: rounding may put the crossing outside of the face,
-/// and is then clamped to it. Computed in double from the sheared, single-precision vertices; the
-/// error of z is that of the vertices, some 2e-7 of the mesh's size, divided by the cosine between
-/// ray and face, and never beyond the face's own range of z.
+/// The measurement never overrules the decision: rounding may put the crossing outside of the face;
+/// the place is then taken between the edges that the bits say the ray passes between. Computed in
+/// double from the sheared, single-precision vertices; the error of z is that of the vertices, some
+/// 2e-7 of the mesh's size, divided by the cosine between ray and face, and never beyond the face's
+/// own range of z.
 #pragma once
 
 #include <algorithm>
@@ -19,23 +20,68 @@ struct Crossing {
   float scalar;
 };
 
-/// A triangle: barycentric coordinates from the three Plücker products of ray and edges. Where all
-/// vanish (a triangle seen edge-on), its centre.
-inline Crossing measure_triangle(const ShearedPoint& a, const ShearedPoint& b,
-                                 const ShearedPoint& c, int winding) {
-  auto product = [winding](const ShearedPoint& p, const ShearedPoint& q) {
-    const double value = static_cast<double>(p.x) * static_cast<double>(q.y) -
-                         static_cast<double>(p.y) * static_cast<double>(q.x);
-    return std::max(0.0, winding > 0 ? value : -value);
-  };
-  double wa = product(b, c), wb = product(c, a), wc = product(a, b);
-  double sum = wa + wb + wc;
-  if (!(sum > 0)) {
-    wa = wb = wc = 1;
-    sum = 3;
+/// Where a face's loop crosses y = 0 next to the ray, on its right and on its left: one edge each
+/// way, as the bits have it. The ray passes between the two places.
+struct Straddle {
+  const ShearedPoint* right[2] = {nullptr, nullptr};  ///< low and high end
+  const ShearedPoint* left[2] = {nullptr, nullptr};
+  double right_product = 0;  ///< low.x * high.y - high.x * low.y >= 0
+  double left_product = 0;   ///< its negative, >= 0
+
+  /// Takes an edge of the loop into account; of several on one side, the one nearest to the ray.
+  void add(const ShearedPoint& a, const ShearedPoint& b) {
+    if (a.up() == b.up()) return;
+    const ShearedPoint& low = a.up() ? b : a;
+    const ShearedPoint& high = a.up() ? a : b;
+    const double product = static_cast<double>(low.x) * static_cast<double>(high.y) -
+                           static_cast<double>(high.x) * static_cast<double>(low.y);
+    const bool on_right = right_of_ray(low, high) != 0;
+    const double distance = std::max(0.0, on_right ? product : -product);
+    const ShearedPoint** const ends = on_right ? right : left;
+    double& nearest = on_right ? right_product : left_product;
+    // Distances along x are products divided by the edge's extent in y.
+    if (ends[0] != nullptr && distance * (static_cast<double>(ends[1]->y) - ends[0]->y) >=
+                                  nearest * (static_cast<double>(high.y) - low.y))
+      return;
+    ends[0] = &low;
+    ends[1] = &high;
+    nearest = distance;
   }
-  auto blend = [&](double va, double vb, double vc) { return (wa * va + wb * vb + wc * vc) / sum; };
-  return {blend(a.z, b.z, c.z), static_cast<float>(blend(a.scalar, b.scalar, c.scalar))};
+
+  /// The place on the line between the two where the ray passes: on the ray whatever the rounding,
+  /// as x = y = 0 there by construction. All weights are >= 0. Requires an edge on the right.
+  Crossing measure() const {
+    // Where right or left edge cross y = 0, times their extent in y, weighted by the distance to
+    // the other; if both edges pass through the ray, one of them will do.
+    const bool both = left[0] != nullptr && left_product + right_product > 0;
+    const double of_right = both ? left_product : 1;
+    const double of_left = both ? right_product : 0;
+    double sum = 0, z = 0, scalar = 0;
+    auto add_end = [&](double weight, const ShearedPoint& p) {
+      sum += weight;
+      z += weight * p.z;
+      scalar += weight * static_cast<double>(p.scalar);
+    };
+    add_end(of_right * right[1]->y, *right[0]);
+    add_end(of_right * -right[0]->y, *right[1]);
+    if (both) {
+      add_end(of_left * left[1]->y, *left[0]);
+      add_end(of_left * -left[0]->y, *left[1]);
+    }
+    return {z / sum, static_cast<float>(scalar / sum)};
+  }
+};
+
+/// A triangle: the place between the two edges that cross y = 0. The same as barycentric
+/// coordinates from three Plücker products, of which two may contradict the bits, and each other,
+/// where the triangle is seen edge-on; the place would then lie beside the ray.
+inline Crossing measure_triangle(const ShearedPoint& a, const ShearedPoint& b,
+                                 const ShearedPoint& c) {
+  Straddle straddle;
+  straddle.add(a, b);
+  straddle.add(b, c);
+  straddle.add(c, a);
+  return straddle.measure();
 }
 
 /// A quadrilateral, planar or twisted: the bilinear patch through a, b, c, d in the order of the
@@ -63,12 +109,22 @@ inline Crossing measure_patch(const ShearedPoint& a, const ShearedPoint& b, cons
   const double root = std::sqrt(std::max(0.0, k1 * k1 - 4 * k0 * k2));
   const double jacobian = winding > 0 ? root : -root;
   double v = k1 * jacobian > 0 || k2 == 0 ? -2 * k0 / (k1 + jacobian) : (jacobian - k1) / (2 * k2);
-  // Not a number only where the patch is seen edge-on: then any point of it will do.
-  v = std::isnan(v) ? 0.5 : std::clamp(v, 0.0, 1.0);
+  // Outside of the patch, or no number at all, only by rounding, where the ray passes by the
+  // boundary or the patch is seen edge-on. Then the place between the edges next to the ray is as
+  // near to the patch, and on the ray.
+  auto between_edges = [&] {
+    Straddle straddle;
+    straddle.add(a, b);
+    straddle.add(b, c);
+    straddle.add(c, d);
+    straddle.add(d, a);
+    return straddle.measure();
+  };
+  if (!(v >= 0 && v <= 1)) return between_edges();
   const Vector across{e.x + g.x * v, e.y + g.y * v};
-  double u = std::abs(across.x) > std::abs(across.y) ? (h.x - f.x * v) / across.x
-                                                     : (h.y - f.y * v) / across.y;
-  u = std::isnan(u) ? 0.5 : std::clamp(u, 0.0, 1.0);
+  const double u = std::abs(across.x) > std::abs(across.y) ? (h.x - f.x * v) / across.x
+                                                           : (h.y - f.y * v) / across.y;
+  if (!(u >= 0 && u <= 1)) return between_edges();
   auto blend = [u, v](double va, double vb, double vc, double vd) {
     return (1 - v) * ((1 - u) * va + u * vb) + v * ((1 - u) * vd + u * vc);
   };
@@ -93,7 +149,7 @@ Crossing measure_polygon(const Loop& loop, int winding) {
   const ShearedPoint* from = &loop[loop.size() - 1];
   for (const ShearedPoint& to : loop) {
     const int w = crossing(center, *from) + crossing(*from, to) + crossing(to, center);
-    if (w * winding > 0) return measure_triangle(center, *from, to, winding);
+    if (w * winding > 0) return measure_triangle(center, *from, to);
     from = &to;
   }
   return {center.z, center.scalar};  // not reached for winding != 0

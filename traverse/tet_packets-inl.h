@@ -217,23 +217,42 @@ struct StepResult {
   MF left;
 };
 
-// Where rays cross triangles that wind once about them: measure_triangle() in single precision,
-// with products that do not cancel, and relative to the third corner. The error of z and s is below
-// 4 units in the last place of the triangle's range of them.
-HWY_INLINE void Measure(const Corner<true>& a, const Corner<true>& b, const Corner<true>& c,
-                        StepResult& result) {
+// Where rays cross the triangles low, high, third: measure_triangle() in single precision, with
+// products that do not cancel. The edge from low to high crosses y = 0 on the right; on the left
+// it is that between the third corner and the one across from it. Error of z and s: 4 units in
+// the last place of their largest value in the triangle.
+HWY_INLINE void Measure(const Corner<true>& low, const Corner<true>& high,
+                        const Corner<true>& third, StepResult& result) {
   const DF d;
   const VF zero = hn::Zero(d);
-  VF wa = hn::Max(zero, DifferenceOfProducts(b.x, c.y, b.y, c.x));
-  VF wb = hn::Max(zero, DifferenceOfProducts(c.x, a.y, c.y, a.x));
-  const VF wc = hn::Max(zero, DifferenceOfProducts(a.x, b.y, a.y, b.x));
-  const VF sum = hn::Add(hn::Add(wa, wb), wc);
-  // Seen edge-on, all vanish: any point of the triangle will do, the third corner as well.
-  const VF scale = hn::IfThenElseZero(hn::Gt(sum, zero), hn::Div(hn::Set(d, 1.0f), sum));
-  wa = hn::Mul(wa, scale);
-  wb = hn::Mul(wb, scale);
-  result.z = hn::MulAdd(wa, hn::Sub(a.z, c.z), hn::MulAdd(wb, hn::Sub(b.z, c.z), c.z));
-  result.s = hn::MulAdd(wa, hn::Sub(a.s, c.s), hn::MulAdd(wb, hn::Sub(b.s, c.s), c.s));
+  const MF third_up = hn::Ge(third.y, zero);
+  auto left_low = [&](VF of_low, VF of_third) {
+    return hn::IfThenElse(third_up, of_low, of_third);
+  };
+  auto left_high = [&](VF of_high, VF of_third) {
+    return hn::IfThenElse(third_up, of_third, of_high);
+  };
+  const VF x0 = left_low(low.x, third.x), y0 = left_low(low.y, third.y);
+  const VF x1 = left_high(high.x, third.x), y1 = left_high(high.y, third.y);
+  const VF right = hn::Max(zero, DifferenceOfProducts(low.x, high.y, high.x, low.y));
+  const VF left = hn::Max(zero, DifferenceOfProducts(x1, y0, x0, y1));
+  // If both edges pass through the ray, one of them will do.
+  const VF of_right = hn::IfThenElse(hn::Gt(hn::Add(left, right), zero), left, hn::Set(d, 1.0f));
+  const VF w_low = hn::Mul(of_right, high.y);
+  const VF w_high = hn::Neg(hn::Mul(of_right, low.y));
+  const VF w_0 = hn::Mul(right, y1);
+  const VF w_1 = hn::Neg(hn::Mul(right, y0));
+  const VF scale = hn::Div(hn::Set(d, 1.0f), hn::Add(hn::Add(w_low, w_high), hn::Add(w_0, w_1)));
+  auto blend = [&](VF of_low, VF of_high, VF of_third) {
+    const VF sum = hn::MulAdd(
+        w_low, hn::Sub(of_low, of_third),
+        hn::MulAdd(w_high, hn::Sub(of_high, of_third),
+                   hn::MulAdd(w_0, hn::Sub(left_low(of_low, of_third), of_third),
+                              hn::Mul(w_1, hn::Sub(left_high(of_high, of_third), of_third)))));
+    return hn::MulAdd(sum, scale, of_third);
+  };
+  result.z = blend(low.z, high.z, third.z);
+  result.s = blend(low.s, high.s, third.s);
 }
 
 // One step of a packet: TetWalker::leave() and advance(). `kAxis` is the rays' longest axis, the

@@ -30,9 +30,9 @@ class TetWalker {
   }
 
   /// Where the ray crosses a boundary face of that winding.
-  Crossing measure_boundary(const Boundary& face, int winding) const {
+  Crossing measure_boundary(const Boundary& face, int /*winding*/) const {
     const auto t = triangle(face);
-    return measure_triangle(t[0].at, t[1].at, t[2].at, winding);
+    return measure_triangle(t[0].at, t[1].at, t[2].at);
   }
 
   /// Starts at a boundary face that winds about the ray.
@@ -97,7 +97,7 @@ class TetWalker {
                              static_cast<std::size_t>(high_.id < behind.id) +
                              static_cast<std::size_t>(third_.id < behind.id);
     next_ = mesh_.cells[cell_][rank];
-    return measure_triangle(low_.at, high_.at, third_.at, 1);
+    return measure_triangle(low_.at, high_.at, third_.at);
   }
 
   /// Into the cell behind the face left through; false at the boundary.

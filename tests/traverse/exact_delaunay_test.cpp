@@ -1,7 +1,8 @@
 // The walk through Delaunay tetrahedra, against one that is decided exactly.
 //
-// Coordinates are multiples of 2^-20 in [-1, 1], about a centre of exactly zero, and the ends of
-// rays are multiples of 2^-23: walker and oracle are given the same numbers, bit for bit.
+// Coordinates are multiples of 2^-20 or 2^-24 in [-1, 1], about a centre of exactly zero, which are
+// floats; the ends of rays and their differences are doubles. So walker and oracle are given the
+// same numbers, bit for bit.
 
 #include "plume/tests/reference/exact_delaunay.h"
 
@@ -97,6 +98,31 @@ std::vector<Point> lattice(double shake, std::uint64_t seed) {
         const bool outside = i % kIntervals == 0 || j % kIntervals == 0 || k % kIntervals == 0;
         if (!outside)
           for (double& x : p) x += random.coordinate(shake);
+        points.push_back(p);
+      }
+  return points;
+}
+
+// n^3 points of a cubic lattice that is turned at random and rounded to float: planes of the
+// lattice hold many slivers, most of them thinner than what rounding moves by two orders of
+// magnitude.
+std::vector<Point> turned_lattice(int n) {
+  // The columns of the rotation by the quaternion (2, 1, -1.4, 1.2).
+  constexpr double w = 2, x = 1, y = -1.4, z = 1.2, norm = w * w + x * x + y * y + z * z;
+  constexpr std::array<Point, 3> axes{
+      {{1 - 2 * (y * y + z * z) / norm, 2 * (x * y + w * z) / norm, 2 * (x * z - w * y) / norm},
+       {2 * (x * y - w * z) / norm, 1 - 2 * (x * x + z * z) / norm, 2 * (y * z + w * x) / norm},
+       {2 * (x * z + w * y) / norm, 2 * (y * z - w * x) / norm, 1 - 2 * (x * x + y * y) / norm}}};
+  std::vector<Point> points;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      for (int k = 0; k < n; ++k) {
+        Point p{0, 0, 0};
+        for (std::size_t a = 0; a < 3; ++a) {
+          p[a] = (2 * i - n + 1) * axes[0][a] + (2 * j - n + 1) * axes[1][a] +
+                 (2 * k - n + 1) * axes[2][a];
+          p[a] = std::round(p[a] * 0.56 / (n - 1) * 0x1p24) * 0x1p-24;
+        }
         points.push_back(p);
       }
   return points;
@@ -228,8 +254,9 @@ void record(const Tally& tally) {
 
 class Comparison {
  public:
-  explicit Comparison(const std::vector<Point>& points)
-      : exact_(points), mesh_(as_walkable(exact_)), boundary_(mesh_) {
+  /// With or without the lengths of rays.
+  explicit Comparison(const std::vector<Point>& points, bool lengths = true)
+      : lengths_(lengths), exact_(points), mesh_(as_walkable(exact_)), boundary_(mesh_) {
     // The local frame changes no coordinate.
     EXPECT_EQ(mesh_.frame.center, (std::array<double, 3>{0, 0, 0}));
     EXPECT_EQ(mesh_.frame.scale, 1);
@@ -250,7 +277,10 @@ class Comparison {
   void compare(const Line& line) {
     Ray ray;
     ray.origin = line.from;
-    for (std::size_t a = 0; a < 3; ++a) ray.direction[a] = line.to[a] - line.from[a];
+    for (std::size_t a = 0; a < 3; ++a) {
+      ray.direction[a] = line.to[a] - line.from[a];
+      ASSERT_EQ(line.from[a] + ray.direction[a], line.to[a]);
+    }
     const double length = std::hypot(ray.direction[0], ray.direction[1], ray.direction[2]);
     ray.t_min = 0;
     ray.t_max = 1;  // t counts from one end to the other
@@ -272,13 +302,14 @@ class Comparison {
     for (const std::uint32_t cell : walked)
       ASSERT_TRUE(exact_.passes(line, cell, -kRounding)) << "cell " << cell;
 
+    ++tally_.rays;
+    tally_.generic += generic ? 1 : 0;
+    if (!lengths_) return;
     const double least = exact_.length_in_moved_hull(line, -kRounding);
     const double most = exact_.length_in_moved_hull(line, kRounding);
     const double true_length = exact_.length_in_hull(line);
     ASSERT_GE(sum, least - kTiny) << "true: " << true_length;
     ASSERT_LE(sum, most + kTiny) << "true: " << true_length;
-    ++tally_.rays;
-    tally_.generic += generic ? 1 : 0;
     if (most - least > kWellPlaced) return;
     ++tally_.well_placed;
     tally_.worst = std::max(tally_.worst, std::abs(sum - true_length));
@@ -297,6 +328,7 @@ class Comparison {
     return deep;
   }
 
+  bool lengths_;
   ExactDelaunay exact_;
   WalkableTets mesh_;
   BoundaryIndex<TetWalker> boundary_;
@@ -306,6 +338,7 @@ class Comparison {
 struct Case {
   const char* name;
   std::vector<Point> points;
+  bool thin_slivers = false;  // thinner than what rounding moves
 };
 std::vector<Case> cases() {
   return {{"scattered, 500 points", scattered(500, 0, 1)},
@@ -313,8 +346,8 @@ std::vector<Case> cases() {
           {"scattered, 20,000 points", scattered(20000, 0, 3)},
           {"gathered, 5,000 points", scattered(5000, 2, 4)},
           {"lattice", lattice(0, 5)},
-          // Slivers, no thicker than what rounding moves.
-          {"lattice, shaken a little", lattice(4e-6, 6)}};
+          {"lattice, shaken a little", lattice(4e-6, 6)},
+          {"lattice, turned", turned_lattice(17), true}};
 }
 
 }  // namespace
@@ -343,18 +376,37 @@ TEST(TetWalker, WalksTheExactLengthThroughVerticesAndEdges) {
   for (const Case& c : cases()) {
     SCOPED_TRACE(c.name);
     Comparison comparison(c.points);
+    // The last kind has ends. Along a sliver that holds the ray, up to rounding, any place is where
+    // the ray crosses it, so whether that is before an end or behind it is nobody's to say.
+    const std::size_t kinds = Lines::kDegenerateKinds - (c.thin_slivers ? 1 : 0);
     Lines lines(comparison.exact(), 32);
-    for (std::size_t i = 0; i < 100 * Lines::kDegenerateKinds; ++i) {
+    for (std::size_t i = 0; i < 100 * kinds; ++i) {
       SCOPED_TRACE("ray " + std::to_string(i));
-      comparison.compare(lines.degenerate(i));
+      comparison.compare(lines.degenerate(i % kinds));
       if (HasFatalFailure()) return;
     }
     const Tally& tally = comparison.tally();
     EXPECT_EQ(tally.generic, 0);
-    EXPECT_GE(tally.well_placed, 0.9 * tally.rays);
+    EXPECT_GE(tally.well_placed, 0.7 * tally.rays);
     total.add(tally);
   }
   record(total);
+}
+
+// The bits come from products of floats. Where a face is seen edge-on they may contradict products
+// in double: barycentric coordinates from those, clamped, once put the crossing off the ray by up to
+// the face's size, in some two of a thousand such rays.
+TEST(TetWalker, WalksTheExactLengthInThePlaneOfThinSlivers) {
+  for (const int n : {4, 9, 17}) {
+    SCOPED_TRACE("lattice of " + std::to_string(n));
+    Comparison comparison(turned_lattice(n));
+    Lines lines(comparison.exact(), 34);
+    for (std::size_t i = 0; i < 250 * Lines::kDegenerateKinds; ++i) {
+      SCOPED_TRACE("ray " + std::to_string(i));
+      comparison.compare(lines.degenerate(i));
+      if (HasFatalFailure()) return;
+    }
+  }
 }
 
 // The oracle itself: by trying every cell, and by adding up what clipping leaves of each.
@@ -365,10 +417,10 @@ TEST(ExactDelaunay, FindsWhatTryingEveryCellFinds) {
     corners.push_back({exact.points()[cell[0]], exact.points()[cell[1]], exact.points()[cell[2]],
                        exact.points()[cell[3]]});
   Lines lines(exact, 33);
-  for (std::size_t i = 0; i < 50 * Lines::kDegenerateKinds; ++i) {
+  for (std::size_t i = 0; i < 60 * Lines::kDegenerateKinds; ++i) {
     SCOPED_TRACE("line " + std::to_string(i));
     const bool across = i % 2 == 0;
-    const Line line = across ? lines.across() : lines.degenerate(i);
+    const Line line = across ? lines.across() : lines.degenerate(i / 2);
     std::set<std::uint32_t> passed;
     for (std::uint32_t cell = 0; cell < exact.tetrahedra().size(); ++cell)
       if (exact.passes(line, cell, kRounding)) passed.insert(cell);
