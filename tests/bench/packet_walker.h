@@ -1,0 +1,17 @@
+/// Packets of rays in the form of the benchmarks.
+#pragma once
+
+#include <span>
+
+#include "plume/tests/bench/bench_meshes.h"
+#include "plume/tests/bench/bench_views.h"
+#include "plume/tests/bench/passage_consumers.h"
+
+namespace plume::bench {
+
+/// Walks a view's passages by packets (traverse/tet_packets.h), with the widest instructions that
+/// are allowed. Mode::cells alone: the other modes' optics are those of the scalar walkers.
+void walk_packet_passages(const BenchMesh& mesh, const BenchView& view, Mode mode,
+                          std::span<PassageSum> sums);
+
+}  // namespace plume::bench

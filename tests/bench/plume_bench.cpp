@@ -1,0 +1,64 @@
+// The benchmarks: `./dev bench`. See --help.
+
+#include <benchmark/benchmark.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "plume/mesh/error.h"
+#include "plume/tests/bench/result_table.h"
+#include "plume/tests/bench/tet_bench.h"
+
+namespace {
+
+constexpr const char* kHelp = R"(plume_bench: how fast Plume is, as ratios within one run
+
+  --all          also meshes of 10 and 50 million cells: some 10 GB and many minutes;
+                 without, it takes less than a minute
+  --rounds=N     how many times each is measured (3; with --all 5); medians are reported
+  --table        ends with a plain table, the thesis' numbers beside it
+  --benchmark_filter=REGEX, --benchmark_out=FILE, --benchmark_format=json, ...
+                 Google Benchmark's own
+The blunt fin is read from the directory PLUME_DATASETS, by default ../shared/datasets.
+)";
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  plume::bench::TetBenchOptions options;
+  bool table = false;
+  int rounds = 0;
+  std::vector<char*> rest{argv[0]};
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument == "--help" || argument == "-h") {
+      std::fputs(kHelp, stdout);
+      return 0;
+    }
+    if (argument == "--all")
+      options.all = true;
+    else if (argument == "--table")
+      table = true;
+    else if (argument.rfind("--rounds=", 0) == 0)
+      rounds = std::atoi(argument.c_str() + 9);
+    else
+      rest.push_back(argv[i]);
+  }
+  options.rounds = rounds > 0 ? rounds : options.all ? 5 : 3;
+  int count = static_cast<int>(rest.size());
+  rest.push_back(nullptr);
+  benchmark::Initialize(&count, rest.data());
+  if (benchmark::ReportUnrecognizedArguments(count, rest.data())) return 1;
+  try {
+    plume::bench::register_tet_benchmarks(options);
+    benchmark::RunSpecifiedBenchmarks();
+  } catch (const plume::Error& error) {
+    std::fprintf(stderr, "plume_bench: %s\n", error.what());
+    return 1;
+  }
+  benchmark::Shutdown();
+  if (table) std::fputs(plume::bench::result_table(plume::bench::tet_results()).c_str(), stdout);
+  return plume::bench::tet_bench_failed() ? 1 : 0;
+}
