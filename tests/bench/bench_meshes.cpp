@@ -65,8 +65,8 @@ std::optional<Mesh> blunt_fin() {
 }
 
 MeshSource box(const char* name, int size, int resolution, std::uint64_t quick_tiles,
-               CellOrder order = CellOrder::hilbert) {
-  return {name, resolution, quick_tiles, order, [size]() -> std::optional<Mesh> {
+               std::uint64_t tiles, CellOrder order = CellOrder::hilbert) {
+  return {name, resolution, quick_tiles, tiles, order, [size]() -> std::optional<Mesh> {
             return generate("box-tetrahedra", {size, 0.2, 1});
           }};
 }
@@ -105,11 +105,11 @@ BenchMesh make_bench_mesh(const Mesh& mesh, CellOrder order) {
 
 const std::vector<MeshSource>& mesh_sources() {
   static const std::vector<MeshSource> sources{
-      {"blunt-fin", 512, 1, CellOrder::hilbert, blunt_fin},
-      box("box-1M", 55, 512, 4),
-      box("box-10M", 118, 1024, 0),
-      box("box-10M-random-order", 118, 1024, 0, CellOrder::random),
-      box("box-50M", 203, 1024, 0)};
+      {"blunt-fin", 512, 1, 1, CellOrder::hilbert, blunt_fin},
+      box("box-1M", 55, 512, 4, 1),
+      box("box-10M", 118, 1024, 0, 4),
+      box("box-10M-random-order", 118, 1024, 0, 4, CellOrder::random),
+      box("box-50M", 203, 1024, 0, 4)};
   return sources;
 }
 

@@ -27,7 +27,7 @@ class Bench {
                    mesh->cell_count());
       mesh_ = std::make_unique<BenchMesh>(make_bench_mesh(*mesh, source.order));
     }
-    const std::uint64_t tiles = options.all ? 1 : source.quick_tiles;
+    const std::uint64_t tiles = options.all ? source.tiles : source.quick_tiles;
     views_ = make_views(*mesh_, source.resolution, tiles);
     const Agreement agreement = drop_lost(*mesh_, views_);
     std::fprintf(stderr,

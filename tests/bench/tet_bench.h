@@ -9,7 +9,7 @@
 namespace plume::bench {
 
 struct TetBenchOptions {
-  /// Also the meshes of more than a million cells, and whole pictures of all.
+  /// Also the meshes of more than a million cells, and more rays.
   bool all = false;
   int rounds = 3;
 };
