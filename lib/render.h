@@ -41,8 +41,8 @@ struct RenderSettings {
   /// Walk ray by ray in plain scalar code where packets of rays would do: for comparison. The two
   /// take the same way through the mesh, and their pictures differ by less than 1e-5.
   bool scalar_twin = false;
-  /// Further channels: "depth", "optical_depth", "cell_id", "cell_count". The last two but one and
-  /// the last need the whole ray, so early termination is off where one of them is asked for.
+  /// Further channels: "depth", "optical_depth", "cell_id", "cell_count". Optical depth and cell
+  /// count need whole rays, so early termination is off where one of them is asked for.
   std::vector<std::string> channels;
 };
 
