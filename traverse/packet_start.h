@@ -8,7 +8,7 @@
 namespace plume {
 
 struct PacketStart {
-  /// Low, high and third corner of the triangle by which the ray comes in (see TetWalker).
+  /// The triangle by which the ray comes in; it winds about the ray.
   ShearedPoint corners[3] = {};
   std::uint32_t ids[3] = {0, 0, 0};
   std::uint32_t cell = 0;

@@ -19,7 +19,8 @@
 
 namespace plume {
 
-/// A vertex in the sheared frame. z and scalar are as in the mesh.
+/// A vertex in the sheared frame. z and scalar are as in the mesh. y is never -0: the difference of
+/// two numbers is that only if the first one is, and no coordinate of a mesh is.
 struct ShearedPoint {
   float x, y, z, scalar;
   bool up() const { return y >= 0; }

@@ -39,9 +39,10 @@ void walk_tets(const BenchMesh& mesh, const BenchView& view, Mode mode,
       std::uint32_t cells = 0;
       do {
         ++cells;
-        const std::optional<Crossing> exit = walker.leave();
-        if (!exit) break;
-        if constexpr (Consumer::kMeasures) {
+        if constexpr (!Consumer::kMeasures) {
+          walker.decide();
+        } else {
+          const std::optional<Crossing> exit = walker.leave();
           const double t_out = std::max(t_in, frame.t(exit->z));
           if (!consumer.add(t_in, t_out, s_in, exit->scalar)) break;
           t_in = t_out;
