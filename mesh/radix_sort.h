@@ -5,12 +5,16 @@
 #include <cstdint>
 #include <memory>
 
+#include "plume/mesh/huge_pages.h"
+
 namespace plume {
 
 /// Integers that nobody has to set to zero first.
 struct SortItems {
   explicit SortItems(std::size_t count)
-      : values(std::make_unique_for_overwrite<std::uint64_t[]>(count)), size(count) {}
+      : values(std::make_unique_for_overwrite<std::uint64_t[]>(count)), size(count) {
+    prefer_huge_pages(values.get(), count * sizeof(std::uint64_t));
+  }
 
   std::uint64_t& operator[](std::size_t i) { return values[i]; }
   std::uint64_t operator[](std::size_t i) const { return values[i]; }

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "plume/mesh/face_bucket.h"
+#include "plume/mesh/huge_pages.h"
 #include "plume/mesh/orientation.h"
 #include "plume/mesh/space_curve.h"
 
@@ -66,7 +67,7 @@ std::vector<std::uint32_t> order_cells(const Mesh& mesh, TetAdjacency& tets) {
 // that uses each of the user's points; kNone where none does.
 std::vector<std::uint32_t> read_cells(const Mesh& mesh, TetAdjacency& tets) {
   std::vector<std::uint32_t> first(mesh.point_count(), kNone);
-  tets.cells.resize(tets.original.size());
+  resize_in_huge_pages(tets.cells, tets.original.size());
   mesh.cells.connectivity.visit([&](auto ids) {
     for_each_range(tets.cells.size(), [&](const auto& range) {
       for (std::size_t c = range.begin(); c != range.end(); ++c) {
@@ -100,7 +101,7 @@ void number_points(const Mesh& mesh, const ScalarField& scalar, TetAdjacency& te
   while (bits < 32 && tets.cells.size() >> bits > 0) ++bits;
   radix_sort(order, 32, 32 + bits);
   const bool on_points = scalar.association == Association::point;
-  tets.points.resize(used);
+  resize_in_huge_pages(tets.points, used);
   mesh.points.visit([&](auto xyz) {
     for_each_range(used, [&](const auto& range) {
       for (std::size_t i = range.begin(); i != range.end(); ++i) {

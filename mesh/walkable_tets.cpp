@@ -43,20 +43,20 @@ std::vector<WalkableTets::Boundary> boundary_of(const TetAdjacency& adjacency) {
 // face each of the two cells needs the other's point, so these two are swapped, when the face with
 // the smaller number is met; nobody else reads or writes them.
 void link(std::vector<WalkableTets::Cell>& cells) {
+  // The neighbours of a cell so far ahead are fetched while others are linked.
+  constexpr std::size_t kAhead = 16;
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 4096), [&](const auto& range) {
     for (std::size_t c = range.begin(); c != range.end(); ++c) {
+      if (c + kAhead < range.end())
+        for (const WalkableTets::Link& later : cells[c + kAhead])
+          if (later.cell != kNone) __builtin_prefetch(&cells[later.cell / 4], 1);
       for (std::size_t r = 0; r < 4; ++r) {
         WalkableTets::Link& own = cells[c][r];
         if (own.cell == kNone) {
           own.apex = 0;
           continue;
         }
-        // One of two is as likely as the other: a choice of what to swap, not a branch.
-        const bool smaller = 4 * c + r < own.cell;
-        WalkableTets::Link nothing{};
-        WalkableTets::Link* const mine = smaller ? &own : &nothing;
-        WalkableTets::Link* const theirs = smaller ? &cells[own.cell / 4][own.cell % 4] : &nothing;
-        std::swap(mine->apex, theirs->apex);
+        if (4 * c + r < own.cell) std::swap(own.apex, cells[own.cell / 4][own.cell % 4].apex);
         own.cell /= 4;
       }
     }

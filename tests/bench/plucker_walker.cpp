@@ -7,6 +7,7 @@
 #include <string>
 
 #include "plume/mesh/error.h"
+#include "plume/mesh/huge_pages.h"
 
 namespace plume::bench {
 
@@ -18,7 +19,8 @@ PluckerMesh make_plucker_mesh(const Mesh& source, TetAdjacency adjacency) {
   PluckerMesh mesh;
   mesh.frame = adjacency.frame;
   mesh.points = std::move(adjacency.points);
-  mesh.cells.resize(cells.size());
+  // As for our own cells: pages are no part of the method.
+  resize_in_huge_pages(mesh.cells, cells.size());
   const auto for_each_cell = [&](const auto& body) {
     tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 4096),
                       [&](const auto& range) {
