@@ -11,8 +11,8 @@
 
 #include "plume/mesh/face_bucket.h"
 #include "plume/mesh/huge_pages.h"
-#include "plume/mesh/orientation.h"
 #include "plume/mesh/space_curve.h"
+#include "plume/mesh/tet_orientation.h"
 
 namespace plume {
 namespace {
@@ -115,25 +115,6 @@ void number_points(const Mesh& mesh, const ScalarField& scalar, TetAdjacency& te
   });
 }
 
-// Six times the volume of a tetrahedron.
-double signed_volume(const TetAdjacency& tets, const std::array<std::uint32_t, 4>& points) {
-  double edge[3][3];
-  for (std::size_t e = 0; e < 3; ++e)
-    for (std::size_t a = 0; a < 3; ++a)
-      edge[e][a] = static_cast<double>(tets.points[points[e + 1]].position[a]) -
-                   static_cast<double>(tets.points[points[0]].position[a]);
-  return edge[0][0] * (edge[1][1] * edge[2][2] - edge[1][2] * edge[2][1]) +
-         edge[0][1] * (edge[1][2] * edge[2][0] - edge[1][0] * edge[2][2]) +
-         edge[0][2] * (edge[1][0] * edge[2][1] - edge[1][1] * edge[2][0]);
-}
-
-double signed_volume(const TetAdjacency& tets, std::size_t c) {
-  const WalkableTets::Cell& cell = tets.cells[c];
-  const double volume =
-      signed_volume(tets, {cell[0].apex, cell[1].apex, cell[2].apex, cell[3].apex});
-  return tets.odd[c] ? -volume : volume;
-}
-
 // Sorts four ids; true where that took an odd number of swaps.
 bool sort_odd(std::array<std::uint32_t, 4>& ids) {
   bool odd = false;
@@ -196,23 +177,28 @@ class Lists {
   std::vector<std::uint32_t> first_;
 };
 
-// Numbers and sorts the points of all cells. Returns whether all volumes are positive.
-bool sort_points(TetAdjacency& tets, Lists& lists) {
-  std::atomic<bool> positive = true;
+// Numbers and sorts the points of all cells. Returns the cells without a positive volume, in
+// ascending order.
+std::vector<std::uint32_t> sort_points(TetAdjacency& tets, Lists& lists) {
+  std::vector<std::uint32_t> not_positive;
+  std::mutex guard;
   tets.odd.resize(tets.cells.size());
   for_each_range(tets.cells.size(), [&](const auto& range) {
-    bool all_positive = true;
+    std::vector<std::uint32_t> found;
     for (std::size_t c = range.begin(); c != range.end(); ++c) {
       std::array<std::uint32_t, 4> points;
       for (std::size_t v = 0; v < 4; ++v) points[v] = tets.numbers[tets.cells[c][v].apex];
-      all_positive = all_positive && signed_volume(tets, points) > 0;
       tets.odd[c] = sort_odd(points);
       for (std::size_t r = 0; r < 4; ++r) tets.cells[c][r].apex = points[r];
+      if (!(signed_volume(tets, c) > 0)) found.push_back(static_cast<std::uint32_t>(c));
       lists.add(static_cast<std::uint32_t>(c), points);
     }
-    if (!all_positive) positive.store(false, std::memory_order_relaxed);
+    if (found.empty()) return;
+    const std::lock_guard lock(guard);
+    not_positive.insert(not_positive.end(), found.begin(), found.end());
   });
-  return positive;
+  std::sort(not_positive.begin(), not_positive.end());
+  return not_positive;
 }
 
 // Returns whether all neighbours agree on who is on which side.
@@ -263,34 +249,6 @@ bool find_neighbors(TetAdjacency& tets, const Lists& lists) {
   return agreed;
 }
 
-void orient(TetAdjacency& tets) {
-  Finding one_sided{"faces where neighbours cannot agree on a side, taken as boundary", 0, {}};
-  std::vector<std::uint32_t> cuts;
-  const auto turned = cells_to_turn(
-      tets.cells.size(),
-      [&](std::uint32_t cell, const auto& visit) {
-        for (std::uint32_t face = 4 * cell; face < 4 * cell + 4; ++face)
-          if (const std::uint32_t partner = tets.partner(face); partner != kNone)
-            visit(partner / 4, tets.agree(face, partner), static_cast<int>(face % 4));
-      },
-      [&](std::uint32_t cell) { return signed_volume(tets, cell); },
-      [&](std::uint32_t cell, int face) {
-        cuts.push_back(4 * cell + static_cast<std::uint32_t>(face));
-      });
-  for (const std::uint32_t face : cuts) {
-    tets.partner(face) = kNone;
-    add_example(one_sided, tets.original[face / 4]);
-  }
-  if (one_sided.count > 0) tets.findings.push_back(std::move(one_sided));
-  Finding reversed{"tetrahedra listed with the opposite orientation, turned around", 0, {}};
-  for (std::size_t c = 0; c < tets.cells.size(); ++c) {
-    if (!turned[c]) continue;
-    tets.odd[c] ^= 1;
-    add_example(reversed, tets.original[c]);
-  }
-  if (reversed.count > 0) tets.findings.push_back(std::move(reversed));
-}
-
 }  // namespace
 
 TetAdjacency find_tet_adjacency(const Mesh& mesh, const ScalarField& scalar, const Bounds& bounds) {
@@ -300,9 +258,9 @@ TetAdjacency find_tet_adjacency(const Mesh& mesh, const ScalarField& scalar, con
   tets.numbers = read_cells(mesh, tets);
   number_points(mesh, scalar, tets);
   Lists lists(tets);
-  const bool positive = sort_points(tets, lists);
+  const std::vector<std::uint32_t> not_positive = sort_points(tets, lists);
   const bool agreed = find_neighbors(tets, lists);
-  if (!positive || !agreed) orient(tets);
+  orient_tets(tets, agreed, not_positive);
   return tets;
 }
 

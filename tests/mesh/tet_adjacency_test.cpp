@@ -32,12 +32,21 @@ Ids ids_of(const Mesh& mesh) {
   return ids;
 }
 
-enum Flaw : unsigned { kShuffled = 1, kTurned = 2, kRepeated = 4, kCrowded = 8, kUnused = 16 };
+enum Flaw : unsigned {
+  kShuffled = 1,
+  kTurned = 2,
+  kRepeated = 4,
+  kCrowded = 8,
+  kUnused = 16,
+  kMirrored = 32,
+  kTangled = 64
+};
 
 // A box, some of whose cells are listed in any order, the other way round, with a point twice, two
-// and more times; and some points of which no cell uses.
+// and more times; some points of which no cell uses; all cells the other way round; or points moved
+// so far that cells turn inside out.
 Mesh flawed_box(int size, unsigned flaws) {
-  Mesh mesh = generate("box-tetrahedra", {size, 0.2, 1});
+  Mesh mesh = generate("box-tetrahedra", {size, flaws & kTangled ? 0.5 : 0.2, 1});
   std::mt19937 random(flaws + 1);
   Ids ids = ids_of(mesh);
   const auto cells = static_cast<std::uint32_t>(ids.size() / 4);
@@ -61,6 +70,8 @@ Mesh flawed_box(int size, unsigned flaws) {
         if (id == lost) id = ids[0];
     }
   }
+  if (flaws & kMirrored)
+    for (std::size_t c = 0; c < ids.size(); c += 4) std::swap(ids[c + 1], ids[c + 2]);
   if (flaws & kShuffled)
     for (std::size_t c = ids.size() / 4; c > 1; --c)
       std::swap_ranges(&ids[4 * c - 4], &ids[4 * c - 4] + 4, &ids[4 * (random() % c)]);
@@ -212,8 +223,9 @@ TEST_P(FlawedBox, IsTheSameForAnyNumberOfThreads) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Flaws, FlawedBox,
-                         testing::Values(0, kShuffled, kTurned, kRepeated, kCrowded, kUnused,
-                                         kShuffled | kTurned | kRepeated,
+                         testing::Values(0, kMirrored, kTangled, kMirrored | kTangled,
+                                         kTangled | kTurned, kShuffled, kTurned, kRepeated,
+                                         kCrowded, kUnused, kShuffled | kTurned | kRepeated,
                                          kShuffled | kTurned | kRepeated | kCrowded | kUnused));
 
 TEST(TetAdjacency, NamesTheFlawsOfABox) {
@@ -224,6 +236,39 @@ TEST(TetAdjacency, NamesTheFlawsOfABox) {
   EXPECT_TRUE(named.count("tetrahedra listed with the opposite orientation, turned around"));
   EXPECT_TRUE(named.count("tetrahedra with repeated points left out"));
   EXPECT_TRUE(named.count("faces shared by more than two cells"));
+}
+
+// How many cells are turned around of two boxes that do not touch.
+std::size_t turned_cells(unsigned first, unsigned second) {
+  Mesh mesh = flawed_box(6, first);
+  const Mesh other = flawed_box(6, second);
+  std::vector<double> points;
+  for (const double shift : {0.0, 3.0})
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+      points.push_back((shift > 0 ? other : mesh).points.at<double>(i) + shift);
+  Ids ids = ids_of(mesh);
+  for (const std::int32_t id : ids_of(other))
+    ids.push_back(id + static_cast<std::int32_t>(mesh.point_count()));
+  std::size_t turned = 0;
+  for (const Finding& finding :
+       adjacency_of(make_mesh(CellType::tetrahedron, std::move(points), std::move(ids))).findings) {
+    EXPECT_EQ(finding.what, "tetrahedra listed with the opposite orientation, turned around");
+    turned += finding.count;
+  }
+  return turned;
+}
+
+TEST(TetAdjacency, TurnsThePartsWhoseVolumeIsNegativeAndNoOthers) {
+  constexpr std::size_t kBox = 6 * 6 * 6 * 6;
+  ASSERT_FALSE(find_poor_cells(flawed_box(6, kTangled)).empty());
+  EXPECT_EQ(turned_cells(0, 0), 0u);
+  EXPECT_EQ(turned_cells(kTangled, 0), 0u);
+  EXPECT_EQ(turned_cells(kTangled, kTangled), 0u);
+  EXPECT_EQ(turned_cells(0, kMirrored), kBox);
+  EXPECT_EQ(turned_cells(kTangled, kMirrored), kBox);
+  EXPECT_EQ(turned_cells(kMirrored | kTangled, kTangled), kBox);
+  EXPECT_EQ(turned_cells(kMirrored, kMirrored), 2 * kBox);
+  EXPECT_EQ(turned_cells(kMirrored, kMirrored | kTangled), 2 * kBox);
 }
 
 // Tetrahedra of four consecutive points of a list each, so that neighbours share three; the last
