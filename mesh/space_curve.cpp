@@ -120,7 +120,7 @@ std::uint64_t hilbert_key(const std::array<float, 3>& position, int order) {
 
 int lattice_order(std::size_t count) {
   int order = 1;
-  while (order < kFinestLattice && std::uint64_t{8} << (3 * order) < count) ++order;
+  while (order < kFinestLattice && std::uint64_t{1} << (3 * order) < count) ++order;
   return order;
 }
 

@@ -20,7 +20,7 @@ namespace plume {
 std::uint64_t hilbert_key(const std::array<float, 3>& position, int order = 21);
 
 /// The order of the curve by which `count` items are sorted first, from 1 to 10: that of a lattice
-/// that has 1 to 8 items a cell where they are spread evenly.
+/// of 1 to 8 cells an item, or of fewer where there are more than 2^30 items.
 int lattice_order(std::size_t count);
 
 /// The second half of hilbert_order(): items are their key of lattice_order() times 2^32 plus their
