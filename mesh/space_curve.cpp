@@ -63,15 +63,26 @@ constexpr Step step(State state, unsigned octant) {
   return {digit, next};
 }
 
-// Two steps at once: by the state and two octants, the next state times 64 plus two digits.
+// By the state and an octant, the next state times 8 plus a digit.
+constexpr std::array<std::array<std::uint16_t, 8>, kStates> make_single_steps() {
+  std::array<std::array<std::uint16_t, 8>, kStates> steps{};
+  for (std::size_t s = 0; s < kStates; ++s)
+    for (unsigned octant = 0; octant < 8; ++octant) {
+      const Step taken = step(state_of(s), octant);
+      steps[s][octant] = static_cast<std::uint16_t>(8 * number_of(taken.next) + taken.digit);
+    }
+  return steps;
+}
+
+// Two at once: by the state and two octants, the next state times 64 plus two digits.
 constexpr std::array<std::array<std::uint16_t, 64>, kStates> make_steps() {
+  constexpr auto kSingle = make_single_steps();
   std::array<std::array<std::uint16_t, 64>, kStates> steps{};
   for (std::size_t s = 0; s < kStates; ++s)
-    for (unsigned octants = 0; octants < 64; ++octants) {
-      const Step first = step(state_of(s), octants / 8);
-      const Step second = step(first.next, octants % 8);
-      steps[s][octants] =
-          static_cast<std::uint16_t>(64 * number_of(second.next) + 8 * first.digit + second.digit);
+    for (std::size_t octants = 0; octants < 64; ++octants) {
+      const std::uint16_t first = kSingle[s][octants / 8];
+      const std::uint16_t second = kSingle[first / 8][octants % 8];
+      steps[s][octants] = static_cast<std::uint16_t>(second / 8 * 64 + first % 8 * 8 + second % 8);
     }
   return steps;
 }
