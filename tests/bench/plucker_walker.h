@@ -40,8 +40,9 @@ struct PluckerMesh {
   }
 };
 
-/// Throws Error where 30 bits do not number the cells.
-PluckerMesh make_plucker_mesh(TetAdjacency adjacency);
+/// Of a mesh and its find_tet_adjacency(); cells list their points in the order of the mesh. Throws
+/// Error where 30 bits do not number the cells.
+PluckerMesh make_plucker_mesh(const Mesh& mesh, TetAdjacency adjacency);
 
 /// A ray in local coordinates. Its Plücker coordinates are {d : d x o}; relative to a point o on
 /// the ray itself they are {d : 0}, which saves half of every product. o is the point nearest to
