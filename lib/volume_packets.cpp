@@ -28,9 +28,9 @@ class FetchedTable {
  private:
   HWY_INLINE optics::Record four(std::uint32_t which, VU piece) const {
     const DU du;
-    HWY_ALIGN std::uint32_t indices[kMaxLanes];
-    hn::Store(hn::Add(hn::Mul(piece, hn::Set(du, 3)), hn::Set(du, which)), du, indices);
-    const FourFloats values = LoadFour(first_, indices);
+    HWY_ALIGN std::uint32_t pairs[kMaxLanes];
+    hn::Store(hn::Add(hn::Mul(piece, hn::Set(du, 6)), hn::Set(du, 2 * which)), du, pairs);
+    const FourFloats values = LoadFour(first_, pairs);
     return {values.a, values.b, values.c, values.d};
   }
 

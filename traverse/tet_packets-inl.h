@@ -33,7 +33,8 @@ namespace plume {
 namespace HWY_NAMESPACE {
 
 // What a packet's lanes are given, as arrays, so that a lane can be given another ray. Corners are
-// written there only while that is done; `cells_by_4` and `apex` always, as places to load from.
+// written there only while that is done; `cells_by_4` and `apex_by_2` always, as places to load
+// from.
 struct PacketState {
   struct LaneCorners {
     HWY_ALIGN float x[kMaxLanes];
@@ -44,7 +45,7 @@ struct PacketState {
     HWY_ALIGN float right[kMaxLanes];
   };
   HWY_ALIGN std::uint32_t cells_by_4[kMaxLanes];
-  HWY_ALIGN std::uint32_t apex[kMaxLanes];
+  HWY_ALIGN std::uint32_t apex_by_2[kMaxLanes];
   HWY_ALIGN float slope_x[kMaxLanes];
   HWY_ALIGN float slope_y[kMaxLanes];
   HWY_ALIGN float offset_x[kMaxLanes];
@@ -113,6 +114,7 @@ struct Corner {
 template <bool kMeasure>
 struct Packet {
   Corner<kMeasure> a, b, c;
+  VU apex;
   VF right_a, right_c;  // whether the edges across from a and c cross on the right
   VF z_in, s_in;
 
@@ -121,6 +123,7 @@ struct Packet {
     a.Load(state.corners[0]);
     b.Load(state.corners[1]);
     c.Load(state.corners[2]);
+    apex = hn::ShiftRight<1>(hn::Load(DU(), state.apex_by_2));
     right_a = hn::Load(d, state.corners[0].right);
     right_c = hn::Load(d, state.corners[2].right);
     if constexpr (kMeasure) {
@@ -187,7 +190,7 @@ HWY_INLINE StepResult Step(const WalkableTets::Cell* HWY_RESTRICT cells,
   const DF d;
   const DU du;
   const LanesLinks links(cells, state.cells_by_4);
-  const FourFloats point = LoadFour(points, state.apex);
+  const FourFloats point = LoadFour(points, state.apex_by_2);
   const VF px = kAxis == 0 ? point.b : kAxis == 1 ? point.c : point.a;
   const VF py = kAxis == 0 ? point.c : kAxis == 1 ? point.a : point.b;
   const VF pz = kAxis == 0 ? point.a : kAxis == 1 ? point.b : point.c;
@@ -198,7 +201,7 @@ HWY_INLINE StepResult Step(const WalkableTets::Cell* HWY_RESTRICT cells,
       hn::Sub(hn::Sub(py, hn::Load(d, state.offset_y)), hn::Mul(hn::Load(d, state.slope_y), pz));
   apex.z = pz;
   apex.s = point.d;
-  apex.id = hn::Load(du, state.apex);
+  apex.id = packet.apex;
 
   Corner<kMeasure>&a = packet.a, &b = packet.b, &c = packet.c;
   // Right of the ray: low.x * high.y > high.x * low.y, where the apex is high if it is up and low
@@ -244,7 +247,8 @@ HWY_INLINE StepResult Step(const WalkableTets::Cell* HWY_RESTRICT cells,
   // A lane that has left goes on in cell 0 until it is given another ray.
   const auto left = hn::Eq(next.cell, hn::Set(du, kNone));
   hn::Store(hn::IfThenZeroElse(left, hn::ShiftLeft<2>(next.cell)), du, state.cells_by_4);
-  hn::Store(next.apex, du, state.apex);
+  hn::Store(hn::Add(next.apex, next.apex), du, state.apex_by_2);
+  packet.apex = next.apex;
 
   StepResult result;
   result.left = hn::RebindMask(d, left);
@@ -265,7 +269,7 @@ inline void PutRay(PacketState& state, std::size_t lane, const PacketStart& star
         crossing(start.corners[(c + 1) % 3], start.corners[(c + 2) % 3]) != 0 ? -1.0f : 1.0f;
   }
   state.cells_by_4[lane] = 4 * start.cell;
-  state.apex[lane] = start.apex;
+  state.apex_by_2[lane] = 2 * start.apex;
   state.slope_x[lane] = start.line.slope_x;
   state.slope_y[lane] = start.line.slope_y;
   state.offset_x[lane] = start.line.offset_x;
