@@ -1,0 +1,16 @@
+/// What a second core is worth.
+#pragma once
+
+namespace plume::bench {
+
+struct ThreadScalingOptions {
+  int size = 1024;  ///< pixels along each side
+  int rounds = 7;
+};
+
+/// Renders a frame of a box of a million tetrahedra and of the blunt fin with one and with two
+/// threads in turns, and prints wall times and their ratio. The blunt fin is skipped, loudly,
+/// without the dataset. False where two threads did not give one thread's picture, bit for bit.
+bool compare_threads(const ThreadScalingOptions& options);
+
+}  // namespace plume::bench
