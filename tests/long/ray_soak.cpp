@@ -185,7 +185,7 @@ void SoakTally::add(const SoakTally& other) {
   contradictions += other.contradictions;
   different += other.different;
   one_way += other.one_way;
-  off_chord += other.off_chord;
+  off_length += other.off_length;
   worst_twin = std::max(worst_twin, other.worst_twin);
   worst_packets = std::max(worst_packets, other.worst_packets);
   if (problem.empty()) problem = other.problem;
@@ -222,6 +222,8 @@ SoakTally soak(const SoakMesh& mesh, std::uint64_t seed, std::uint64_t batch, st
       fail(tally.lost, number, "lost");
       continue;
     }
+    if (!(seen.way.length <= (1 + kTwinSlack) * mesh.bounds.diagonal()))
+      fail(tally.off_length, number, "the twin's segments are longer than the mesh");
     const bool alike = seen.in_order && seen.result.entries == twin.ways.size() &&
                        (twin.ways.size() != 1 || (seen.way.forth == twin.ways[0].forth &&
                                                   seen.way.cells == twin.ways[0].cells));
@@ -237,7 +239,7 @@ SoakTally soak(const SoakMesh& mesh, std::uint64_t seed, std::uint64_t batch, st
       const Chord chord(mesh.bounds, ray);
       tally.worst_twin = std::max(tally.worst_twin, chord.error(seen.way.length));
       if (!chord.holds(seen.way.length, kTwinSlack))
-        fail(tally.off_chord, number, "the twin's segments do not sum up to the chord");
+        fail(tally.off_length, number, "the twin's segments do not sum up to the chord");
     }
     for (std::size_t p = 0; p < twin.ways.size(); ++p) {
       twin.starts[p].ray = static_cast<std::uint32_t>(ways.size());
@@ -261,13 +263,17 @@ SoakTally soak(const SoakMesh& mesh, std::uint64_t seed, std::uint64_t batch, st
     if (packets.ways[p].forth != ways[p].forth || packets.ways[p].cells != ways[p].cells ||
         counts[p] != ways[p].cells)
       fail(tally.different, ray_of[p], "packets meet other cells than the twin");
+    if (!(packets.ways[p].length <= (1 + kPacketSlack) * mesh.bounds.diagonal())) {  // or NaN
+      fail(tally.off_length, ray_of[p], "a packet's passage is longer than the mesh");
+      continue;
+    }
     const bool alone = (p == 0 || ray_of[p - 1] != ray_of[p]) &&
                        (p + 1 == ways.size() || ray_of[p + 1] != ray_of[p]);
     if (!mesh.fills_bounds || !alone) continue;
     const Chord chord(mesh.bounds, chord_rays[ray_of[p]]);
     tally.worst_packets = std::max(tally.worst_packets, chord.error(packets.ways[p].length));
     if (!chord.holds(packets.ways[p].length, kPacketSlack))
-      fail(tally.off_chord, ray_of[p], "the packets' segments do not sum up to the chord");
+      fail(tally.off_length, ray_of[p], "the packets' segments do not sum up to the chord");
   }
   return tally;
 }

@@ -46,9 +46,10 @@ struct SoakTally {
   std::uint64_t different = 0;
   /// Of one ray in 8, those that meet other cells, or in another order, when turned around.
   std::uint64_t one_way = 0;
-  /// Rays of which the segments do not sum up to the chord (reference::box_chord_range), within
-  /// kTwinSlack or kPacketSlack of the bounds' diagonal.
-  std::uint64_t off_chord = 0;
+  /// Rays, and passages of packets, that are longer than the bounds' diagonal; where the mesh fills
+  /// its bounds, those whose segments do not sum up to the chord (reference::box_chord_range).
+  /// Within kTwinSlack or kPacketSlack of the diagonal.
+  std::uint64_t off_length = 0;
   /// The farthest that a sum is from the chord, in diagonals, of rays that do not graze the box:
   /// whose chord stays above zero, and changes by less than 2e-5, when its sides move by 2e-6. The
   /// twin's sums are in double, those of packets in single precision.
@@ -56,7 +57,9 @@ struct SoakTally {
   /// The first failure, in one line that tells how to find it again; empty where there is none.
   std::string problem;
 
-  std::uint64_t failures() const { return lost + contradictions + different + one_way + off_chord; }
+  std::uint64_t failures() const {
+    return lost + contradictions + different + one_way + off_length;
+  }
   void add(const SoakTally& other);
 };
 

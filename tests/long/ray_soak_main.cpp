@@ -80,7 +80,7 @@ SoakTally soak_mesh(const plume::test::SoakMesh& mesh, const Options& options, s
 void print(const std::string& name, const SoakTally& t, bool chord, double seconds) {
   fmt::print("{:<17}{:>11}{:>9}{:>12}{:>14}{:>6}{:>8}{:>7}{:>8}{:>7}{:>9}{:>9}{:>8.0f}\n", name,
              t.rays, t.aimless, t.passages, t.cells, t.lost, t.contradictions, t.different,
-             t.one_way, t.off_chord, chord ? fmt::format("{:.1e}", t.worst_twin) : "-",
+             t.one_way, t.off_length, chord ? fmt::format("{:.1e}", t.worst_twin) : "-",
              chord ? fmt::format("{:.1e}", t.worst_packets) : "-", seconds);
   std::fflush(stdout);
 }
@@ -90,7 +90,7 @@ int run(const Options& options) {
   const auto sets = instruction_sets();
   const auto& sources = plume::test::soak_sources();
   fmt::print("{:<17}{:>11}{:>9}{:>12}{:>14}{:>6}{:>8}{:>7}{:>8}{:>7}{:>9}{:>9}{:>8}\n", "mesh",
-             "rays", "aimless", "passages", "cells", "lost", "contra", "packet", "turned", "chord",
+             "rays", "aimless", "passages", "cells", "lost", "contra", "packet", "turned", "length",
              "worst", "packets'", "seconds");
   SoakTally total;
   const auto start = Clock::now();
