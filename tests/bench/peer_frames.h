@@ -13,8 +13,8 @@ struct PeerFrameOptions {
 };
 
 /// Renders the blunt fin as tetrahedra on one thread, by Plume and by VTK with each of its
-/// integrators, and prints times, ratios and errors. False where that could not be done: without
-/// the dataset, or where the pictures are not of the same thing.
+/// integrators, and prints times, ratios and errors. Skipped, loudly, without the dataset. False
+/// where the pictures are not of the same thing, or VTK's are not what it showed.
 bool compare_peer_frames(const PeerFrameOptions& options);
 
 }  // namespace plume::bench
