@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-constexpr std::size_t kPackets = 4;
+constexpr std::size_t kPackets = 2;
 
 // A table of any size, its pieces fetched like the points.
 class FetchedTable {
@@ -52,7 +52,6 @@ struct VolumeConsumer {
     HWY_ALIGN float b[kMaxLanes];
     HWY_ALIGN float transmittance[kMaxLanes];
     HWY_ALIGN std::uint32_t piece[kMaxLanes];
-    HWY_ALIGN std::uint32_t cells[kMaxLanes];
   };
   Lanes lanes[kPackets] = {};
 
@@ -64,7 +63,6 @@ struct VolumeConsumer {
     mine.b[lane] = color.b;
     mine.transmittance[lane] = color.transmittance;
     mine.piece[lane] = static_cast<std::uint32_t>(table.piece_at(start.scalar));
-    mine.cells[lane] = color.cells;
   }
 
   HWY_INLINE MF visit(std::size_t packet, MF active, VF length, VF s_in, VF s_out, VU cells) {
@@ -84,16 +82,17 @@ struct VolumeConsumer {
     hn::Store(sums.b, d, mine.b);
     hn::Store(sums.transmittance, d, mine.transmittance);
     hn::Store(piece, du, mine.piece);
-    hn::Store(hn::Add(hn::Load(du, mine.cells), hn::Set(du, 1)), du, mine.cells);
     return hn::Le(sums.transmittance, hn::Set(d, enough));
   }
 
-  void end(std::size_t packet, std::size_t lane, const PacketStart& start, float z, bool /*left*/) {
+  void end(std::size_t packet, std::size_t lane, const PacketStart& start, float z,
+           std::uint32_t cells) {
     const Lanes& mine = lanes[packet];
+    PacketColor& color = colors[start.ray];
     const float transmittance = mine.transmittance[lane];
-    colors[start.ray] = {mine.r[lane],           mine.g[lane],     mine.b[lane],
-                         transmittance,          mine.cells[lane], z,
-                         transmittance <= enough};
+    color = {mine.r[lane],           mine.g[lane],        mine.b[lane],
+             transmittance,          color.cells + cells, z,
+             transmittance <= enough};
   }
 };
 

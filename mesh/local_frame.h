@@ -44,11 +44,14 @@ struct LocalFrame {
     return frame;
   }
 
+  /// No coordinate is -0, so that none is in a sheared frame, where signs are bits.
   WalkablePoint local(double x, double y, double z, float scalar) const {
-    return {
-        {static_cast<float>((x - center[0]) * scale), static_cast<float>((y - center[1]) * scale),
-         static_cast<float>((z - center[2]) * scale)},
-        scalar};
+    return {{coordinate(x, 0), coordinate(y, 1), coordinate(z, 2)}, scalar};
+  }
+
+ private:
+  float coordinate(double x, std::size_t axis) const {
+    return static_cast<float>((x - center[axis]) * scale) + 0.0f;
   }
 };
 

@@ -4,59 +4,22 @@
 #include <tbb/parallel_for.h>
 
 #include <algorithm>
+#include <atomic>
 #include <mutex>
+#include <span>
+#include <utility>
 
-#include "plume/mesh/cell_faces.h"
-#include "plume/mesh/orientation.h"
+#include "plume/mesh/face_bucket.h"
+#include "plume/mesh/huge_pages.h"
 #include "plume/mesh/space_curve.h"
+#include "plume/mesh/tet_orientation.h"
 
 namespace plume {
 namespace {
 
 template <class Body>
-void for_each_parallel(std::size_t count, const Body& body) {
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 2048), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
-  });
-}
-
-std::array<std::uint32_t, 3> face_points(const TetAdjacency::Cell& cell, std::size_t face) {
-  const auto& loop = kTetrahedronFaces[face];
-  return {cell.points[static_cast<std::size_t>(loop[0])],
-          cell.points[static_cast<std::size_t>(loop[1])],
-          cell.points[static_cast<std::size_t>(loop[2])]};
-}
-
-// Sorts three ids; true where that took an odd number of swaps.
-bool sort_odd(std::array<std::uint32_t, 3>& ids) {
-  bool odd = false;
-  auto order = [&](std::size_t a, std::size_t b) {
-    if (ids[b] < ids[a]) {
-      std::swap(ids[a], ids[b]);
-      odd = !odd;
-    }
-  };
-  order(0, 1);
-  order(1, 2);
-  order(0, 1);
-  return odd;
-}
-
-bool odd_face(const TetAdjacency::Cell& cell, std::size_t face) {
-  auto ids = face_points(cell, face);
-  return sort_odd(ids);
-}
-
-double signed_volume(const TetAdjacency& tets, std::size_t index) {
-  const auto& cell = tets.cells[index];
-  double edge[3][3];
-  for (std::size_t e = 0; e < 3; ++e)
-    for (std::size_t a = 0; a < 3; ++a)
-      edge[e][a] = static_cast<double>(tets.points[cell.points[e + 1]].position[a]) -
-                   static_cast<double>(tets.points[cell.points[0]].position[a]);
-  return edge[0][0] * (edge[1][1] * edge[2][2] - edge[1][2] * edge[2][1]) +
-         edge[0][1] * (edge[1][2] * edge[2][0] - edge[1][0] * edge[2][2]) +
-         edge[0][2] * (edge[1][0] * edge[2][1] - edge[1][1] * edge[2][0]);
+void for_each_range(std::size_t count, const Body& body) {
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, 2048), body);
 }
 
 bool has_repeated_point(const std::array<std::uint32_t, 4>& p) {
@@ -64,152 +27,226 @@ bool has_repeated_point(const std::array<std::uint32_t, 4>& p) {
          p[2] == p[3];
 }
 
-// Cells with the user's point ids, ordered along the curve; cells with repeated points left out.
-// Returns the user's number of each cell.
+// The user's number of each cell along the curve; cells with repeated points left out.
 std::vector<std::uint32_t> order_cells(const Mesh& mesh, TetAdjacency& tets) {
-  const std::size_t count = mesh.cell_count();
+  std::atomic<bool> any_repeated = false;
   std::vector<std::uint32_t> order;
   mesh.cells.connectivity.visit([&](auto ids) {
-    mesh.points.visit([&](auto xyz) {
-      order = hilbert_order(count, [&](std::size_t cell) {
-        double center[3] = {0, 0, 0};
-        for (std::size_t v = 0; v < 4; ++v)
-          for (std::size_t a = 0; a < 3; ++a)
-            center[a] += 0.25 * static_cast<double>(
-                                    xyz[3 * static_cast<std::size_t>(ids[4 * cell + v]) + a]);
-        const WalkablePoint p = tets.frame.local(center[0], center[1], center[2], 0);
-        return std::array<float, 3>{p.position[0], p.position[1], p.position[2]};
-      });
-    });
-    Finding repeated{"tetrahedra with repeated points left out", 0, {}};
-    std::erase_if(order, [&](std::uint32_t cell) {
+    const auto points_of = [&](std::size_t cell) {
       std::array<std::uint32_t, 4> p;
       for (std::size_t v = 0; v < 4; ++v) p[v] = static_cast<std::uint32_t>(ids[4 * cell + v]);
-      if (!has_repeated_point(p)) return false;
+      return p;
+    };
+    mesh.points.visit([&](auto xyz) {
+      order = hilbert_order(mesh.cell_count(), [&](std::size_t cell) {
+        const auto p = points_of(cell);
+        if (has_repeated_point(p)) any_repeated.store(true, std::memory_order_relaxed);
+        double center[3];
+        for (std::size_t a = 0; a < 3; ++a)
+          center[a] = 0.25 * ((static_cast<double>(xyz[3 * std::size_t{p[0]} + a]) +
+                               static_cast<double>(xyz[3 * std::size_t{p[1]} + a])) +
+                              (static_cast<double>(xyz[3 * std::size_t{p[2]} + a]) +
+                               static_cast<double>(xyz[3 * std::size_t{p[3]} + a])));
+        const WalkablePoint local = tets.frame.local(center[0], center[1], center[2], 0);
+        return std::array<float, 3>{local.position[0], local.position[1], local.position[2]};
+      });
+    });
+    if (!any_repeated) return;
+    Finding repeated{"tetrahedra with repeated points left out", 0, {}};
+    std::erase_if(order, [&](std::uint32_t cell) {
+      if (!has_repeated_point(points_of(cell))) return false;
       add_example(repeated, cell);
       return true;
     });
-    if (repeated.count > 0) tets.findings.push_back(std::move(repeated));
-    tets.cells.resize(order.size());
-    for_each_parallel(order.size(), [&](std::size_t i) {
-      for (std::size_t v = 0; v < 4; ++v)
-        tets.cells[i].points[v] =
-            static_cast<std::uint32_t>(ids[4 * static_cast<std::size_t>(order[i]) + v]);
-      tets.cells[i].neighbors.fill(kNone);
-    });
+    tets.findings.push_back(std::move(repeated));
   });
   return order;
 }
 
-// Points in the order in which the cells first use them; unused points are left out.
-void order_points(const Mesh& mesh, const ScalarField& scalar, TetAdjacency& tets) {
-  std::vector<std::uint32_t> renumbered(mesh.point_count(), kNone);
-  std::vector<std::uint32_t> original;
-  original.reserve(mesh.point_count());
-  for (auto& cell : tets.cells) {
-    for (auto& point : cell.points) {
-      if (renumbered[point] == kNone) {
-        renumbered[point] = static_cast<std::uint32_t>(original.size());
-        original.push_back(point);
+// The cells in order, with the user's points in the user's order. Returns the first cell, in order,
+// that uses each of the user's points; kNone where none does.
+std::vector<std::uint32_t> read_cells(const Mesh& mesh, TetAdjacency& tets) {
+  std::vector<std::uint32_t> first(mesh.point_count(), kNone);
+  resize_in_huge_pages(tets.cells, tets.original.size());
+  mesh.cells.connectivity.visit([&](auto ids) {
+    for_each_range(tets.cells.size(), [&](const auto& range) {
+      for (std::size_t c = range.begin(); c != range.end(); ++c) {
+        const std::size_t begin = 4 * std::size_t{tets.original[c]};
+        for (std::size_t v = 0; v < 4; ++v) {
+          const auto point = static_cast<std::uint32_t>(ids[begin + v]);
+          tets.cells[c][v] = {kNone, point};
+          std::atomic_ref user(first[point]);
+          std::uint32_t seen = user.load(std::memory_order_relaxed);
+          while (c < seen && !user.compare_exchange_weak(seen, static_cast<std::uint32_t>(c),
+                                                         std::memory_order_relaxed)) {
+          }
+        }
       }
-      point = renumbered[point];
-    }
-  }
+    });
+  });
+  return first;
+}
+
+// Points in the order in which the cells first use them; unused points are left out. Turns the
+// first user of each of the user's points into its number.
+void number_points(const Mesh& mesh, const ScalarField& scalar, TetAdjacency& tets) {
+  std::vector<std::uint32_t>& first = tets.numbers;
+  const auto used = static_cast<std::size_t>(
+      std::count_if(first.begin(), first.end(), [](std::uint32_t user) { return user != kNone; }));
+  SortItems order(used);
+  std::size_t next = 0;
+  for (std::size_t p = 0; p < first.size(); ++p)
+    if (first[p] != kNone) order[next++] = std::uint64_t{first[p]} << 32 | p;
+  int bits = 1;
+  while (bits < 32 && tets.cells.size() >> bits > 0) ++bits;
+  radix_sort(order, 32, 32 + bits);
   const bool on_points = scalar.association == Association::point;
-  tets.points.resize(original.size());
+  resize_in_huge_pages(tets.points, used);
   mesh.points.visit([&](auto xyz) {
-    for_each_parallel(original.size(), [&](std::size_t i) {
-      const std::size_t p = original[i];
-      tets.points[i] = tets.frame.local(
-          static_cast<double>(xyz[3 * p]), static_cast<double>(xyz[3 * p + 1]),
-          static_cast<double>(xyz[3 * p + 2]), on_points ? scalar.values[p] : 0.0f);
+    for_each_range(used, [&](const auto& range) {
+      for (std::size_t i = range.begin(); i != range.end(); ++i) {
+        const std::size_t p = order[i] & 0xFFFFFFFFu;
+        first[p] = static_cast<std::uint32_t>(i);
+        tets.points[i] = tets.frame.local(
+            static_cast<double>(xyz[3 * p]), static_cast<double>(xyz[3 * p + 1]),
+            static_cast<double>(xyz[3 * p + 2]), on_points ? scalar.values[p] : 0.0f);
+      }
     });
   });
 }
 
-void find_neighbors(TetAdjacency& tets, const std::vector<std::uint32_t>& original) {
+// Sorts four ids; true where that took an odd number of swaps.
+bool sort_odd(std::array<std::uint32_t, 4>& ids) {
+  bool odd = false;
+  const auto order = [&](std::size_t a, std::size_t b) {
+    const std::uint32_t x = ids[a], y = ids[b];
+    ids[a] = std::min(x, y);
+    ids[b] = std::max(x, y);
+    odd ^= y < x;
+  };
+  order(0, 1);
+  order(2, 3);
+  order(0, 2);
+  order(1, 3);
+  order(1, 2);
+  return odd;
+}
+
+// Faces by their smallest point, which for three faces of a cell is its smallest and for one its
+// second point. So each cell is in two lists, one of each of these two points, as entry 2 * cell
+// and 2 * cell + 1; what follows in a list is kept in the place of the partner of a face that is
+// matched in that list.
+class Lists {
+ public:
+  explicit Lists(TetAdjacency& tets) : tets_(tets), first_(tets.points.size(), kNone) {}
+
+  void add(std::uint32_t cell, const std::array<std::uint32_t, 4>& points) {
+    for (std::uint32_t which = 0; which < 2; ++which)
+      tets_.cells[cell][1 - which].cell =
+          std::atomic_ref(first_[points[which]])
+              .exchange(2 * cell + which, std::memory_order_relaxed);
+  }
+  // The entries of as many points as `lists` has room for, from `point` on, each in ascending
+  // order. Going along several lists in turn, one need not wait for memory at each step.
+  void read(std::size_t point, std::span<std::vector<std::uint32_t>> lists) const {
+    std::array<std::uint32_t, kTogether> next;
+    for (std::size_t k = 0; k < lists.size(); ++k) {
+      lists[k].clear();
+      next[k] = first_[point + k];
+    }
+    for (bool more = true; more;) {
+      more = false;
+      for (std::size_t k = 0; k < lists.size(); ++k) {
+        const std::uint32_t e = next[k];
+        if (e == kNone) continue;
+        lists[k].push_back(e);
+        next[k] = tets_.cells[e / 2][1 - e % 2].cell;
+        more = true;
+      }
+    }
+    for (auto& list : lists) {
+      // One thread has put the last first, several nearly so.
+      std::reverse(list.begin(), list.end());
+      if (!std::is_sorted(list.begin(), list.end())) std::sort(list.begin(), list.end());
+    }
+  }
+  static constexpr std::size_t kTogether = 8;
+
+ private:
+  TetAdjacency& tets_;
+  std::vector<std::uint32_t> first_;
+};
+
+// Numbers and sorts the points of all cells. Returns the cells without a positive volume, in
+// ascending order.
+std::vector<std::uint32_t> sort_points(TetAdjacency& tets, Lists& lists) {
+  std::vector<std::uint32_t> not_positive;
+  std::mutex guard;
+  tets.odd.resize(tets.cells.size());
+  for_each_range(tets.cells.size(), [&](const auto& range) {
+    std::vector<std::uint32_t> found;
+    for (std::size_t c = range.begin(); c != range.end(); ++c) {
+      std::array<std::uint32_t, 4> points;
+      for (std::size_t v = 0; v < 4; ++v) points[v] = tets.numbers[tets.cells[c][v].apex];
+      tets.odd[c] = sort_odd(points);
+      for (std::size_t r = 0; r < 4; ++r) tets.cells[c][r].apex = points[r];
+      if (!(signed_volume(tets, c) > 0)) found.push_back(static_cast<std::uint32_t>(c));
+      lists.add(static_cast<std::uint32_t>(c), points);
+    }
+    if (found.empty()) return;
+    const std::lock_guard lock(guard);
+    not_positive.insert(not_positive.end(), found.begin(), found.end());
+  });
+  std::sort(not_positive.begin(), not_positive.end());
+  return not_positive;
+}
+
+// Returns whether all neighbours agree on who is on which side.
+bool find_neighbors(TetAdjacency& tets, const Lists& lists) {
   Finding crowded{"faces shared by more than two cells", 0, {}};
   std::mutex guard;
-  auto key = [&](std::size_t slot) {
-    auto ids = face_points(tets.cells[slot / 4], slot % 4);
-    sort_odd(ids);
-    return ids;
-  };
-  match_faces(
-      tets.points.size(), 4 * tets.cells.size(), key,
-      [](std::uint32_t, std::uint32_t) { return true; },
-      [&](std::uint32_t a, std::uint32_t b) {
-        tets.cells[a / 4].neighbors[a % 4] = b / 4;
-        tets.cells[b / 4].neighbors[b % 4] = a / 4;
-      },
-      [&](std::uint32_t slot) {
-        const std::lock_guard lock(guard);
-        add_example(crowded, original[slot / 4]);
+  std::atomic<bool> agreed = true;
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, tets.points.size(), 512), [&](const auto& range) {
+        FaceBucket bucket;
+        std::array<std::vector<std::uint32_t>, Lists::kTogether> read;
+        bool all_agree = true;
+        for (std::size_t p = range.begin(); p != range.end(); ++p) {
+          const std::size_t at = (p - range.begin()) % Lists::kTogether;
+          if (at == 0)
+            lists.read(p, std::span(read).first(std::min(Lists::kTogether, range.end() - p)));
+          const std::vector<std::uint32_t>& entries = read[at];
+          bucket.start(3 * entries.size());
+          const auto add = [&](std::uint32_t second, std::uint32_t third, std::uint32_t face) {
+            tets.partner(face) = kNone;
+            bucket.add(
+                second, third, face, [](std::uint32_t, std::uint32_t) { return true; },
+                [&](std::uint32_t a, std::uint32_t b) {
+                  tets.partner(a) = b;
+                  tets.partner(b) = a;
+                  all_agree = all_agree && tets.agree(a, b);
+                },
+                [&](std::uint32_t extra) {
+                  const std::lock_guard lock(guard);
+                  add_example(crowded, tets.original[extra / 4]);
+                });
+          };
+          for (const std::uint32_t e : entries) {
+            const WalkableTets::Cell& cell = tets.cells[e / 2];
+            const std::uint32_t face = 4 * (e / 2);
+            if (e % 2 == 1) {
+              add(cell[2].apex, cell[3].apex, face);
+            } else {
+              add(cell[2].apex, cell[3].apex, face + 1);
+              add(cell[1].apex, cell[3].apex, face + 2);
+              add(cell[1].apex, cell[2].apex, face + 3);
+            }
+          }
+        }
+        if (!all_agree) agreed.store(false, std::memory_order_relaxed);
       });
   if (crowded.count > 0) tets.findings.push_back(std::move(crowded));
-}
-
-// The face of `neighbor` that it shares with `cell` through the cell's face.
-std::size_t face_back(const TetAdjacency& tets, std::size_t cell, std::size_t face) {
-  auto wanted = face_points(tets.cells[cell], face);
-  sort_odd(wanted);
-  const auto& other = tets.cells[tets.cells[cell].neighbors[face]];
-  std::size_t back = 0;
-  for (; back < 3; ++back) {
-    auto ids = face_points(other, back);
-    sort_odd(ids);
-    if (ids == wanted) break;
-  }
-  return back;
-}
-
-bool agree(const TetAdjacency& tets, std::size_t cell, std::size_t face) {
-  const auto& neighbor = tets.cells[tets.cells[cell].neighbors[face]];
-  return odd_face(tets.cells[cell], face) != odd_face(neighbor, face_back(tets, cell, face));
-}
-
-void turn(TetAdjacency::Cell& cell) {
-  std::swap(cell.points[0], cell.points[1]);
-  std::swap(cell.neighbors[0], cell.neighbors[1]);
-}
-
-void orient(TetAdjacency& tets, const std::vector<std::uint32_t>& original) {
-  // Mostly all cells are right already, and a look at each of them tells.
-  std::atomic<bool> right = true;
-  for_each_parallel(tets.cells.size(), [&](std::size_t i) {
-    if (!right.load(std::memory_order_relaxed)) return;
-    bool fine = signed_volume(tets, i) > 0;
-    for (std::size_t f = 0; f < 4 && fine; ++f)
-      fine = tets.cells[i].neighbors[f] == kNone || agree(tets, i, f);
-    if (!fine) right.store(false, std::memory_order_relaxed);
-  });
-  if (right) return;
-
-  Finding one_sided{"faces where neighbours cannot agree on a side, taken as boundary", 0, {}};
-  std::vector<std::array<std::uint32_t, 2>> cuts;
-  const auto turned = cells_to_turn(
-      tets.cells.size(),
-      [&](std::uint32_t cell, const auto& visit) {
-        for (std::size_t f = 0; f < 4; ++f)
-          if (tets.cells[cell].neighbors[f] != kNone)
-            visit(tets.cells[cell].neighbors[f], agree(tets, cell, f), static_cast<int>(f));
-      },
-      [&](std::uint32_t cell) { return signed_volume(tets, cell); },
-      [&](std::uint32_t cell, int face) {
-        cuts.push_back({cell, static_cast<std::uint32_t>(face)});
-      });
-  for (const auto& [cell, face] : cuts) {
-    tets.cells[cell].neighbors[face] = kNone;
-    add_example(one_sided, original[cell]);
-  }
-  if (one_sided.count > 0) tets.findings.push_back(std::move(one_sided));
-  Finding reversed{"tetrahedra listed with the opposite orientation, turned around", 0, {}};
-  for (std::size_t i = 0; i < tets.cells.size(); ++i) {
-    if (!turned[i]) continue;
-    turn(tets.cells[i]);
-    add_example(reversed, original[i]);
-  }
-  if (reversed.count > 0) tets.findings.push_back(std::move(reversed));
+  return agreed;
 }
 
 }  // namespace
@@ -218,9 +255,12 @@ TetAdjacency find_tet_adjacency(const Mesh& mesh, const ScalarField& scalar, con
   TetAdjacency tets;
   tets.frame = LocalFrame::of(bounds);
   tets.original = order_cells(mesh, tets);
-  order_points(mesh, scalar, tets);
-  find_neighbors(tets, tets.original);
-  orient(tets, tets.original);
+  tets.numbers = read_cells(mesh, tets);
+  number_points(mesh, scalar, tets);
+  Lists lists(tets);
+  const std::vector<std::uint32_t> not_positive = sort_points(tets, lists);
+  const bool agreed = find_neighbors(tets, lists);
+  orient_tets(tets, agreed, not_positive);
   return tets;
 }
 

@@ -12,27 +12,55 @@
 namespace plume {
 namespace {
 
-std::uint32_t all_points(const TetAdjacency::Cell& cell) {
-  return cell.points[0] ^ cell.points[1] ^ cell.points[2] ^ cell.points[3];
+// The faces without a neighbour, in the order of the cells.
+std::vector<WalkableTets::Boundary> boundary_of(const TetAdjacency& adjacency) {
+  constexpr std::size_t kStretch = 4096;
+  const std::size_t cells = adjacency.cells.size();
+  std::vector<std::vector<WalkableTets::Boundary>> parts((cells + kStretch - 1) / kStretch);
+  tbb::parallel_for(std::size_t{0}, parts.size(), [&](std::size_t part) {
+    const std::size_t end = std::min(cells, (part + 1) * kStretch);
+    for (std::size_t c = part * kStretch; c < end; ++c) {
+      const WalkableTets::Cell& cell = adjacency.cells[c];
+      for (std::size_t r = 0; r < 4; ++r) {
+        if (cell[r].cell != kNone) continue;
+        WalkableTets::Boundary face{static_cast<std::uint32_t>(c), cell[r].apex, {}};
+        for (std::size_t p = 0; p < 3; ++p)
+          face.loop[p] = cell[static_cast<std::size_t>(kTetrahedronFaces[r][p])].apex;
+        if (adjacency.odd[c]) std::swap(face.loop[1], face.loop[2]);
+        parts[part].push_back(face);
+      }
+    }
+  });
+  std::vector<WalkableTets::Boundary> boundary;
+  std::size_t count = 0;
+  for (const auto& part : parts) count += part.size();
+  boundary.reserve(count);
+  for (const auto& part : parts) boundary.insert(boundary.end(), part.begin(), part.end());
+  return boundary;
 }
 
-// How many of the cell's points have smaller numbers.
-std::size_t rank_of(const TetAdjacency::Cell& cell, std::uint32_t point) {
-  return static_cast<std::size_t>(std::count_if(cell.points.begin(), cell.points.end(),
-                                                [point](std::uint32_t p) { return p < point; }));
-}
-
-WalkableTets::Cell linked(const TetAdjacency& adjacency, const TetAdjacency::Cell& cell) {
-  WalkableTets::Cell links;
-  for (std::size_t f = 0; f < 4; ++f) {
-    const std::uint32_t neighbor = cell.neighbors[f];
-    // What the face's three points leave of the neighbour's four.
-    const std::uint32_t apex = neighbor == kNone ? 0
-                                                 : all_points(adjacency.cells[neighbor]) ^
-                                                       all_points(cell) ^ cell.points[f];
-    links[rank_of(cell, cell.points[f])] = {neighbor, apex};
-  }
-  return links;
+// Turns "own point, same face of the neighbour" into "neighbour, its point", in place. Across a
+// face each of the two cells needs the other's point, so these two are swapped, when the face with
+// the smaller number is met; nobody else reads or writes them.
+void link(std::vector<WalkableTets::Cell>& cells) {
+  // The neighbours of a cell so far ahead are fetched while others are linked.
+  constexpr std::size_t kAhead = 16;
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 4096), [&](const auto& range) {
+    for (std::size_t c = range.begin(); c != range.end(); ++c) {
+      if (c + kAhead < range.end())
+        for (const WalkableTets::Link& later : cells[c + kAhead])
+          if (later.cell != kNone) __builtin_prefetch(&cells[later.cell / 4], 1);
+      for (std::size_t r = 0; r < 4; ++r) {
+        WalkableTets::Link& own = cells[c][r];
+        if (own.cell == kNone) {
+          own.apex = 0;
+          continue;
+        }
+        if (4 * c + r < own.cell) std::swap(own.apex, cells[own.cell / 4][own.cell % 4].apex);
+        own.cell /= 4;
+      }
+    }
+  });
 }
 
 }  // namespace
@@ -50,22 +78,9 @@ WalkableTets make_walkable_tets(const Mesh& mesh, const ScalarField& scalar, con
   tets.frame = adjacency.frame;
   tets.points = std::move(adjacency.points);
   tets.findings = std::move(adjacency.findings);
-  tets.cells.resize(adjacency.cells.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, tets.cells.size(), 4096),
-                    [&](const auto& range) {
-                      for (std::size_t i = range.begin(); i != range.end(); ++i)
-                        tets.cells[i] = linked(adjacency, adjacency.cells[i]);
-                    });
-  for (std::uint32_t i = 0; i < adjacency.cells.size(); ++i) {
-    const TetAdjacency::Cell& cell = adjacency.cells[i];
-    for (std::size_t f = 0; f < 4; ++f) {
-      if (cell.neighbors[f] != kNone) continue;
-      WalkableTets::Boundary face{i, cell.points[f], {}};
-      for (std::size_t p = 0; p < 3; ++p)
-        face.loop[p] = cell.points[static_cast<std::size_t>(kTetrahedronFaces[f][p])];
-      tets.boundary.push_back(face);
-    }
-  }
+  tets.boundary = boundary_of(adjacency);
+  tets.cells = std::move(adjacency.cells);
+  link(tets.cells);
   if (scalar.association == Association::cell) {
     tets.cell_values.reserve(adjacency.original.size());
     for (const std::uint32_t cell : adjacency.original)

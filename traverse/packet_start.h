@@ -1,6 +1,7 @@
 /// A ray ready to be walked through tetrahedra: what a lane of a packet is filled with.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "plume/traverse/sheared_frame.h"
@@ -8,7 +9,7 @@
 namespace plume {
 
 struct PacketStart {
-  /// Low, high and third corner of the triangle by which the ray comes in (see TetWalker).
+  /// The triangle by which the ray comes in; it winds about the ray.
   ShearedPoint corners[3] = {};
   std::uint32_t ids[3] = {0, 0, 0};
   std::uint32_t cell = 0;
@@ -21,6 +22,9 @@ struct PacketStart {
   /// For whoever made it: which ray this is.
   std::uint32_t ray = 0;
 };
+
+/// Starts that packets hold at a time, at the most.
+inline constexpr std::size_t kMaxPacketLanes = 8 * 16;
 
 /// Where packets get their rays from.
 class PacketFeeder {

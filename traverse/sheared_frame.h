@@ -19,7 +19,8 @@
 
 namespace plume {
 
-/// A vertex in the sheared frame. z and scalar are as in the mesh.
+/// A vertex in the sheared frame. z and scalar are as in the mesh. y is never -0: the difference of
+/// two numbers is that only if the first one is, and no coordinate of a mesh is.
 struct ShearedPoint {
   float x, y, z, scalar;
   bool up() const { return y >= 0; }
@@ -38,14 +39,23 @@ inline int crossing(const ShearedPoint& a, const ShearedPoint& b) {
   return b.up() ? right_of_ray(a, b) : -right_of_ray(b, a);
 }
 
+/// The axis along which a direction's component is largest, the first of several: the z of its
+/// rays' frames.
+inline int longest_axis(const std::array<double, 3>& direction) {
+  int longest = 0;
+  for (int axis = 1; axis < 3; ++axis)
+    if (std::abs(direction[static_cast<std::size_t>(axis)]) >
+        std::abs(direction[static_cast<std::size_t>(longest)]))
+      longest = axis;
+  return longest;
+}
+
 class ShearedFrame {
  public:
   /// False where the direction is zero or not finite: such a ray meets nothing.
   bool set(const Ray& ray, const LocalFrame& local) {
     const auto& d = ray.direction;
-    int major = 0;
-    for (int a = 1; a < 3; ++a)
-      if (std::abs(d[index(a)]) > std::abs(d[index(major)])) major = a;
+    const int major = longest_axis(d);
     if (!(std::abs(d[index(major)]) > 0)) return false;
     // A cyclic permutation keeps the handedness.
     x_ = index((major + 1) % 3);

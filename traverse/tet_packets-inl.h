@@ -2,9 +2,13 @@
 // after hwy/foreach_target.h alone (see tet_packets.cpp).
 //
 // Each lane of a packet walks a ray of its own; several packets take turns, so that while one waits
-// for memory the others compute. A lane whose ray has ended is given the next one. The decisions
-// are TetWalker's, bit for bit: the same products of the same sheared vertices are compared, none
-// is fused with a sum.
+// for memory the others compute. A lane whose ray has ended is given the next one when it is its
+// packet's turn again: what decides that has been known for long by then, so that a branch that was
+// guessed wrong costs little. The decisions are TetWalker's, bit for bit: the same products of the
+// same sheared vertices are compared, none is fused with a sum. (Where a host program has numbers
+// below 1e-38 flushed to zero, products that differ by less are taken as equal.)
+//
+// A bit of a lane is the sign of a float.
 
 // clang-format off
 #if defined(PLUME_TRAVERSE_TET_PACKETS_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -17,39 +21,29 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 
 #include "hwy/highway.h"
 #include "plume/mesh/walkable_tets.h"
+#include "plume/traverse/lane_loads-inl.h"
 #include "plume/traverse/packet_start.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-namespace hn = hwy::HWY_NAMESPACE;
-
-using DF = HWY_CAPPED(float, 16);
-using DU = hn::RebindToUnsigned<DF>;
-using VF = hn::Vec<DF>;
-using VU = hn::Vec<DU>;
-using MF = hn::Mask<DF>;
-
-constexpr std::size_t kMaxLanes = 16;
-
-// One corner of the triangles by which the lanes' rays came into their cells.
-struct CornerState {
-  HWY_ALIGN float x[kMaxLanes];
-  HWY_ALIGN float y[kMaxLanes];
-  HWY_ALIGN float z[kMaxLanes];
-  HWY_ALIGN float s[kMaxLanes];
-  HWY_ALIGN std::uint32_t id[kMaxLanes];
-};
-
-// What a packet's lanes are at; see TetWalker for the meaning of low, high and third. Arrays, so
-// that a lane can be given another ray.
+// What a packet's lanes are given, as arrays, so that a lane can be given another ray. Corners are
+// written there only while that is done; `cells_by_4` and `apex` always, as places to load from.
 struct PacketState {
-  CornerState low, high, third;
-  HWY_ALIGN std::uint32_t cell[kMaxLanes];
+  struct LaneCorners {
+    HWY_ALIGN float x[kMaxLanes];
+    HWY_ALIGN float y[kMaxLanes];
+    HWY_ALIGN float z[kMaxLanes];
+    HWY_ALIGN float s[kMaxLanes];
+    HWY_ALIGN std::uint32_t id[kMaxLanes];
+    HWY_ALIGN float right[kMaxLanes];
+  };
+  HWY_ALIGN std::uint32_t cells_by_4[kMaxLanes];
   HWY_ALIGN std::uint32_t apex[kMaxLanes];
   HWY_ALIGN float slope_x[kMaxLanes];
   HWY_ALIGN float slope_y[kMaxLanes];
@@ -59,101 +53,12 @@ struct PacketState {
   HWY_ALIGN float z_in[kMaxLanes];
   HWY_ALIGN float s_in[kMaxLanes];
   HWY_ALIGN std::uint32_t active[kMaxLanes];  // all ones or zero
+  LaneCorners corners[3];
+  std::uint32_t begun[kMaxLanes];  // the packet's turn when the lane's ray came in
+  std::uint32_t turn = 0;
+  unsigned live = 0;   // lanes that have a ray
+  unsigned ended = 0;  // those whose ray has ended
 };
-
-// Four floats that lie together in memory, a lane each.
-struct FourFloats {
-  VF a, b, c, d;
-};
-
-#if HWY_TARGET == HWY_SCALAR
-
-HWY_INLINE FourFloats LoadFour(const float* HWY_RESTRICT base,
-                               const std::uint32_t* HWY_RESTRICT indices) {
-  const DF d;
-  const float* const p = base + 4 * static_cast<std::size_t>(indices[0]);
-  return {hn::Set(d, p[0]), hn::Set(d, p[1]), hn::Set(d, p[2]), hn::Set(d, p[3])};
-}
-
-#else
-
-// What lanes 0, 4, 8, ... (counted from `indices`) load, side by side.
-template <class D>
-HWY_INLINE hn::Vec<D> LoadEveryFourth(D d, const float* HWY_RESTRICT base,
-                                      const std::uint32_t* HWY_RESTRICT indices) {
-  if constexpr (hn::MaxLanes(D()) <= 4) {
-    return hn::LoadU(d, base + 4 * static_cast<std::size_t>(indices[0]));
-  } else {
-    const hn::Half<D> half;
-    return hn::Combine(d, LoadEveryFourth(half, base, indices + hn::MaxLanes(half)),
-                       LoadEveryFourth(half, base, indices));
-  }
-}
-
-// The four floats at base + 4 * index: one 16-byte load a lane, then a transposition within blocks
-// of four lanes. On x86 that is faster than four gathers.
-HWY_INLINE FourFloats LoadFour(const float* HWY_RESTRICT base,
-                               const std::uint32_t* HWY_RESTRICT indices) {
-  const DF d;
-  const hn::Repartition<std::uint64_t, DF> d64;
-  const VF p0 = LoadEveryFourth(d, base, indices);
-  const VF p1 = LoadEveryFourth(d, base, indices + 1);
-  const VF p2 = LoadEveryFourth(d, base, indices + 2);
-  const VF p3 = LoadEveryFourth(d, base, indices + 3);
-  const auto ab01 = hn::BitCast(d64, hn::InterleaveLower(d, p0, p1));
-  const auto ab23 = hn::BitCast(d64, hn::InterleaveLower(d, p2, p3));
-  const auto cd01 = hn::BitCast(d64, hn::InterleaveUpper(d, p0, p1));
-  const auto cd23 = hn::BitCast(d64, hn::InterleaveUpper(d, p2, p3));
-  return {hn::BitCast(d, hn::InterleaveLower(d64, ab01, ab23)),
-          hn::BitCast(d, hn::InterleaveUpper(d64, ab01, ab23)),
-          hn::BitCast(d, hn::InterleaveLower(d64, cd01, cd23)),
-          hn::BitCast(d, hn::InterleaveUpper(d64, cd01, cd23))};
-}
-
-#endif  // HWY_TARGET == HWY_SCALAR
-
-// Neighbour and apex behind the faces of these numbers (4 * cell + rank).
-struct Links {
-  VU cell, apex;
-};
-
-#if HWY_TARGET == HWY_SCALAR
-
-HWY_INLINE Links LoadLinks(const WalkableTets::Cell* HWY_RESTRICT cells, VU numbers) {
-  const std::uint32_t number = hn::GetLane(numbers);
-  const WalkableTets::Link link = cells[number / 4][number % 4];
-  return {hn::Set(DU(), link.cell), hn::Set(DU(), link.apex)};
-}
-
-#else
-
-// The links of these numbers side by side.
-template <class D>
-HWY_INLINE hn::Vec<D> LoadEach(D d, const std::uint64_t* HWY_RESTRICT links,
-                               const std::uint32_t* HWY_RESTRICT numbers) {
-  if constexpr (hn::MaxLanes(D()) == 1) {
-    return hn::LoadU(d, links + numbers[0]);
-  } else {
-    const hn::Half<D> half;
-    return hn::Combine(d, LoadEach(half, links, numbers + hn::MaxLanes(half)),
-                       LoadEach(half, links, numbers));
-  }
-}
-
-// One load of 8 bytes a lane.
-HWY_INLINE Links LoadLinks(const WalkableTets::Cell* HWY_RESTRICT cells, VU numbers) {
-  static_assert(sizeof(WalkableTets::Link) == sizeof(std::uint64_t));
-  const DU du;
-  const hn::Repartition<std::uint64_t, DU> d64;
-  const auto* HWY_RESTRICT links = reinterpret_cast<const std::uint64_t*>(cells);
-  HWY_ALIGN std::uint32_t stored[kMaxLanes];
-  hn::Store(numbers, du, stored);
-  const VU first = hn::BitCast(du, LoadEach(d64, links, stored));
-  const VU last = hn::BitCast(du, LoadEach(d64, links, stored + hn::MaxLanes(d64)));
-  return {hn::ConcatEven(du, last, first), hn::ConcatOdd(du, last, first)};
-}
-
-#endif  // HWY_TARGET == HWY_SCALAR
 
 // x * y - z * w without the cancellation that single precision would suffer: the error is below two
 // units in the last place of the result where a fused multiply-add is at hand.
@@ -165,108 +70,128 @@ HWY_INLINE VF DifferenceOfProducts(VF x, VF y, VF z, VF w) {
   return hn::Add(hn::MulSub(x, y, zw), error);
 }
 
-// A corner of all lanes. Where nothing is measured, z and s are left alone.
+// A corner of the triangle by which the lanes' rays come into their cells. Where nothing is
+// measured, z and s are left alone.
 template <bool kMeasure>
 struct Corner {
   VF x, y, z, s;
   VU id;
 
-  static HWY_INLINE Corner Load(const CornerState& state) {
+  HWY_INLINE void Load(const PacketState::LaneCorners& from) {
     const DF d;
-    Corner corner;
-    corner.x = hn::Load(d, state.x);
-    corner.y = hn::Load(d, state.y);
-    corner.z = corner.s = corner.x;
+    x = hn::Load(d, from.x);
+    y = hn::Load(d, from.y);
     if constexpr (kMeasure) {
-      corner.z = hn::Load(d, state.z);
-      corner.s = hn::Load(d, state.s);
+      z = hn::Load(d, from.z);
+      s = hn::Load(d, from.s);
     }
-    corner.id = hn::Load(DU(), state.id);
-    return corner;
+    id = hn::Load(DU(), from.id);
   }
-  HWY_INLINE void Store(CornerState& state) const {
+  HWY_INLINE void Store(PacketState::LaneCorners& to) const {
     const DF d;
-    hn::Store(x, d, state.x);
-    hn::Store(y, d, state.y);
+    hn::Store(x, d, to.x);
+    hn::Store(y, d, to.y);
     if constexpr (kMeasure) {
-      hn::Store(z, d, state.z);
-      hn::Store(s, d, state.s);
+      hn::Store(z, d, to.z);
+      hn::Store(s, d, to.s);
     }
-    hn::Store(id, DU(), state.id);
+    hn::Store(id, DU(), to.id);
+  }
+  // Takes another's place in the lanes whose bit is set.
+  HWY_INLINE void Replace(VF bits, const Corner& other) {
+    x = Choose(bits, other.x, x);
+    y = Choose(bits, other.y, y);
+    if constexpr (kMeasure) {
+      z = Choose(bits, other.z, z);
+      s = Choose(bits, other.s, s);
+    }
+    id = Choose(bits, other.id, id);
   }
 };
 
-// mask ? a : b
+// What changes with every step of a packet: in registers as far as there are any.
 template <bool kMeasure>
-HWY_INLINE Corner<kMeasure> Choose(MF mask, const Corner<kMeasure>& a, const Corner<kMeasure>& b) {
-  Corner<kMeasure> chosen = a;
-  chosen.x = hn::IfThenElse(mask, a.x, b.x);
-  chosen.y = hn::IfThenElse(mask, a.y, b.y);
-  if constexpr (kMeasure) {
-    chosen.z = hn::IfThenElse(mask, a.z, b.z);
-    chosen.s = hn::IfThenElse(mask, a.s, b.s);
-  }
-  chosen.id = hn::IfThenElse(hn::RebindMask(DU(), mask), a.id, b.id);
-  return chosen;
-}
+struct Packet {
+  Corner<kMeasure> a, b, c;
+  VF right_a, right_c;  // whether the edges across from a and c cross on the right
+  VF z_in, s_in;
 
-// What a step tells: where the rays cross the face that they leave by (if measured), and which of
-// them have left the mesh.
+  HWY_INLINE void Load(const PacketState& state) {
+    const DF d;
+    a.Load(state.corners[0]);
+    b.Load(state.corners[1]);
+    c.Load(state.corners[2]);
+    right_a = hn::Load(d, state.corners[0].right);
+    right_c = hn::Load(d, state.corners[2].right);
+    if constexpr (kMeasure) {
+      z_in = hn::Load(d, state.z_in);
+      s_in = hn::Load(d, state.s_in);
+    }
+  }
+  HWY_INLINE void Store(PacketState& state) const {
+    const DF d;
+    a.Store(state.corners[0]);
+    b.Store(state.corners[1]);
+    c.Store(state.corners[2]);
+    hn::Store(right_a, d, state.corners[0].right);
+    hn::Store(right_c, d, state.corners[2].right);
+    if constexpr (kMeasure) {
+      hn::Store(z_in, d, state.z_in);
+      hn::Store(s_in, d, state.s_in);
+    }
+  }
+};
+
+// Where rays cross the faces that they leave by, and which of them have left the mesh.
 struct StepResult {
   VF z, s;
   MF left;
 };
 
-// Where rays cross the triangles low, high, third: measure_triangle() in single precision, with
-// products that do not cancel. The edge from low to high crosses y = 0 on the right; on the left
-// it is that between the third corner and the one across from it. Error of z and s: 4 units in
-// the last place of their largest value in the triangle.
-HWY_INLINE void Measure(const Corner<true>& low, const Corner<true>& high,
-                        const Corner<true>& third, StepResult& result) {
+// Where rays cross the triangle a, b, c: measure_triangle() in single precision, with products that
+// do not cancel. Error of z and s: 4 units in the last place of their largest value in the
+// triangle.
+HWY_INLINE void Measure(const Corner<true>& a, const Corner<true>& b, const Corner<true>& c,
+                        StepResult& result) {
   const DF d;
-  const VF zero = hn::Zero(d);
-  const MF third_up = hn::Ge(third.y, zero);
-  auto left_low = [&](VF of_low, VF of_third) {
-    return hn::IfThenElse(third_up, of_low, of_third);
+  const VF ab = hn::Xor(a.y, b.y), ac = hn::Xor(a.y, c.y);  // on different sides of y = 0
+  const VF lone_b = hn::AndNot(ac, ab), lone_c = hn::AndNot(ab, ac);
+  Corner<true> lone = a, p = b, q = c;
+  auto place = [&](VF Corner<true>::*of) {
+    lone.*of = Choose(lone_b, b.*of, Choose(lone_c, c.*of, a.*of));
+    p.*of = Choose(lone_b, a.*of, b.*of);
+    q.*of = Choose(lone_c, a.*of, c.*of);
   };
-  auto left_high = [&](VF of_high, VF of_third) {
-    return hn::IfThenElse(third_up, of_third, of_high);
-  };
-  const VF x0 = left_low(low.x, third.x), y0 = left_low(low.y, third.y);
-  const VF x1 = left_high(high.x, third.x), y1 = left_high(high.y, third.y);
-  const VF right = hn::Max(zero, DifferenceOfProducts(low.x, high.y, high.x, low.y));
-  const VF left = hn::Max(zero, DifferenceOfProducts(x1, y0, x0, y1));
-  // If both edges pass through the ray, one of them will do.
-  const VF of_right = hn::IfThenElse(hn::Gt(hn::Add(left, right), zero), left, hn::Set(d, 1.0f));
-  const VF w_low = hn::Mul(of_right, high.y);
-  const VF w_high = hn::Neg(hn::Mul(of_right, low.y));
-  const VF w_0 = hn::Mul(right, y1);
-  const VF w_1 = hn::Neg(hn::Mul(right, y0));
-  const VF scale = hn::Div(hn::Set(d, 1.0f), hn::Add(hn::Add(w_low, w_high), hn::Add(w_0, w_1)));
-  auto blend = [&](VF of_low, VF of_high, VF of_third) {
-    const VF sum = hn::MulAdd(
-        w_low, hn::Sub(of_low, of_third),
-        hn::MulAdd(w_high, hn::Sub(of_high, of_third),
-                   hn::MulAdd(w_0, hn::Sub(left_low(of_low, of_third), of_third),
-                              hn::Mul(w_1, hn::Sub(left_high(of_high, of_third), of_third)))));
-    return hn::MulAdd(sum, scale, of_third);
-  };
-  result.z = blend(low.z, high.z, third.z);
-  result.s = blend(low.s, high.s, third.s);
+  place(&Corner<true>::x);
+  place(&Corner<true>::y);
+  place(&Corner<true>::z);
+  place(&Corner<true>::s);
+  const VF p_height = hn::Sub(p.y, lone.y), q_height = hn::Sub(q.y, lone.y);
+  const VF p_distance = hn::Abs(DifferenceOfProducts(lone.x, p.y, p.x, lone.y));
+  const VF q_distance =
+      hn::Max(hn::Abs(DifferenceOfProducts(lone.x, q.y, q.x, lone.y)), hn::Set(d, 1e-30f));
+  const VF share = hn::Div(lone.y, hn::MulAdd(p_distance, q_height, hn::Mul(q_distance, p_height)));
+  const VF of_p = hn::Mul(q_distance, share), of_q = hn::Mul(p_distance, share);  // negative
+  result.z =
+      hn::NegMulAdd(of_p, hn::Sub(p.z, lone.z), hn::NegMulAdd(of_q, hn::Sub(q.z, lone.z), lone.z));
+  result.s =
+      hn::NegMulAdd(of_p, hn::Sub(p.s, lone.s), hn::NegMulAdd(of_q, hn::Sub(q.s, lone.s), lone.s));
 }
 
-// One step of a packet: TetWalker::leave() and advance(). `kAxis` is the rays' longest axis, the
+// One step of a packet: TetWalker::decide() and advance(). `kAxis` is the rays' longest axis, the
 // same for all lanes.
 template <int kAxis, bool kMeasure>
-HWY_INLINE StepResult Step(const WalkableTets& mesh, PacketState& state) {
-  using Corners = Corner<kMeasure>;
+HWY_INLINE StepResult Step(const WalkableTets::Cell* HWY_RESTRICT cells,
+                           const float* HWY_RESTRICT points, PacketState& state,
+                           Packet<kMeasure>& packet) {
   const DF d;
   const DU du;
-  const FourFloats point = LoadFour(mesh.points.data()->position, state.apex);
+  const LanesLinks links(cells, state.cells_by_4);
+  const FourFloats point = LoadFour(points, state.apex);
   const VF px = kAxis == 0 ? point.b : kAxis == 1 ? point.c : point.a;
   const VF py = kAxis == 0 ? point.c : kAxis == 1 ? point.a : point.b;
   const VF pz = kAxis == 0 ? point.a : kAxis == 1 ? point.b : point.c;
-  Corners apex;
+  Corner<kMeasure> apex;
   apex.x =
       hn::Sub(hn::Sub(px, hn::Load(d, state.offset_x)), hn::Mul(hn::Load(d, state.slope_x), pz));
   apex.y =
@@ -275,71 +200,71 @@ HWY_INLINE StepResult Step(const WalkableTets& mesh, PacketState& state) {
   apex.s = point.d;
   apex.id = hn::Load(du, state.apex);
 
-  const Corners low = Corners::Load(state.low);
-  const Corners high = Corners::Load(state.high);
-  const Corners third = Corners::Load(state.third);
-  const VF zero = hn::Zero(d);
-  const MF up = hn::Ge(apex.y, zero);
-  const Corners across = Choose(up, low, high);
-  const Corners beside = Choose(up, high, low);
+  Corner<kMeasure>&a = packet.a, &b = packet.b, &c = packet.c;
   // Right of the ray: low.x * high.y > high.x * low.y, where the apex is high if it is up and low
-  // otherwise; then both products change their signs, and no rounding does.
-  const VF flip = hn::IfThenElse(up, zero, hn::SignBit(d));
-  const VF x = hn::Xor(apex.x, flip);
-  const VF y = hn::Xor(apex.y, flip);
-  MF first = hn::Gt(hn::Mul(across.x, y), hn::Mul(x, across.y));
-  const MF second =
-      hn::And(hn::Xor(hn::Ge(third.y, zero), up), hn::Gt(hn::Mul(third.x, y), hn::Mul(x, third.y)));
-  const MF both_ways = hn::AndNot(first, second);
-  if (HWY_UNLIKELY(!hn::AllFalse(d, both_ways))) {
-    const MF smaller_in = hn::RebindMask(d, hn::Lt(apex.id, beside.id));
-    const MF smaller_out = hn::RebindMask(d, hn::Lt(across.id, third.id));
-    first = hn::Or(first, hn::AndNot(hn::Xor(smaller_in, smaller_out), both_ways));
+  // otherwise; then both products change their signs, and no rounding does. The sign of the
+  // products' difference is that of the comparison; adding zero makes -0 a 0, whose difference
+  // from 0 has no sign.
+  const VF y = hn::Abs(apex.y);
+  const VF x = hn::Xor(apex.x, hn::And(apex.y, hn::SignBit(d)));
+  auto crosses_right = [&](const Corner<kMeasure>& corner) {
+    const VF right = hn::Sub(hn::MulAdd(x, corner.y, hn::Zero(d)), hn::Mul(corner.x, y));
+    return hn::And(right, hn::Xor(corner.y, apex.y));
+  };
+  const VF to_a = crosses_right(a), to_b = crosses_right(b), to_c = crosses_right(c);
+  // The faces that leave out a, b, c: one of them winds.
+  VF out_a = hn::Xor(packet.right_a, hn::Xor(to_b, to_c));
+  VF out_c = hn::Xor(packet.right_c, hn::Xor(to_a, to_b));
+  VF out_b = hn::Not(hn::Xor(out_a, out_c));
+  const VF all = hn::And(out_a, out_c);
+  if (HWY_UNLIKELY(!hn::AllFalse(d, MaskOfBits(all)))) {
+    // ... or all three: TetWalker::way_out_of_two().
+    auto smaller = [&](VU m, VU n) { return hn::BitCast(d, hn::VecFromMask(du, hn::Lt(m, n))); };
+    const VF in_a = hn::Not(hn::Xor(a.y, apex.y)), in_c = hn::Not(hn::Xor(c.y, apex.y));
+    const VU in = Choose(in_a, a.id, Choose(in_c, c.id, b.id));
+    const VU p = Choose(in_a, b.id, a.id), q = Choose(in_c, b.id, c.id);
+    const VF take_p = hn::Not(hn::Xor(smaller(apex.id, in), smaller(p, q)));
+    out_a = Choose(all, hn::AndNot(in_a, take_p), out_a);
+    out_c = Choose(all, hn::AndNot(in_c, hn::Not(take_p)), out_c);
+    out_b = Choose(all, hn::Not(hn::Or(out_a, out_c)), out_b);
   }
-  const MF swing = hn::And(first, second);  // the edge to the third corner is the new first one
 
-  const VU behind =
-      hn::IfThenElse(hn::RebindMask(du, first),
-                     hn::IfThenElse(hn::RebindMask(du, swing), across.id, beside.id), third.id);
-  const Corners new_across = Choose(swing, third, across);
-  const Corners new_beside = Choose(first, apex, beside);
-  const Corners new_third = Choose(first, Choose(second, beside, third), apex);
-  const Corners new_low = Choose(up, new_across, new_beside);
-  const Corners new_high = Choose(up, new_beside, new_across);
-  new_low.Store(state.low);
-  new_high.Store(state.high);
-  new_third.Store(state.third);
-
+  const VU behind = Choose(out_a, a.id, Choose(out_b, b.id, c.id));
   // The rank of the corner left behind, as minus the sum of true comparisons.
-  const VU rank = hn::Add(hn::Add(hn::VecFromMask(du, hn::Lt(new_across.id, behind)),
-                                  hn::VecFromMask(du, hn::Lt(new_beside.id, behind))),
-                          hn::VecFromMask(du, hn::Lt(new_third.id, behind)));
-  const Links next =
-      LoadLinks(mesh.cells.data(), hn::Sub(hn::ShiftLeft<2>(hn::Load(du, state.cell)), rank));
+  auto below = [&](VU id) { return hn::VecFromMask(du, hn::Lt(id, behind)); };
+  const VU rank = hn::Sub(hn::Zero(du), hn::Add(hn::Add(below(a.id), below(b.id)),
+                                                hn::Add(below(c.id), below(apex.id))));
+  const Links next = links.pick(rank);
+  packet.right_a = Choose(out_b, to_c, Choose(out_c, to_b, packet.right_a));
+  packet.right_c = Choose(out_a, to_b, Choose(out_b, to_a, packet.right_c));
+  a.Replace(out_a, apex);
+  b.Replace(out_b, apex);
+  c.Replace(out_c, apex);
+
   // A lane that has left goes on in cell 0 until it is given another ray.
-  const auto out = hn::Eq(next.cell, hn::Set(du, kNone));
-  hn::Store(hn::IfThenZeroElse(out, next.cell), du, state.cell);
+  const auto left = hn::Eq(next.cell, hn::Set(du, kNone));
+  hn::Store(hn::IfThenZeroElse(left, hn::ShiftLeft<2>(next.cell)), du, state.cells_by_4);
   hn::Store(next.apex, du, state.apex);
 
   StepResult result;
-  result.z = result.s = apex.x;
-  if constexpr (kMeasure) Measure(new_low, new_high, new_third, result);
-  const auto active = hn::Ne(hn::Load(du, state.active), hn::Zero(du));
-  result.left = hn::RebindMask(d, hn::And(out, active));
+  result.left = hn::RebindMask(d, left);
+  if constexpr (kMeasure) Measure(a, b, c, result);
   return result;
 }
 
 // Puts a ray into a lane.
-HWY_INLINE void PutRay(PacketState& state, std::size_t lane, const PacketStart& start) {
-  CornerState* const corners[] = {&state.low, &state.high, &state.third};
+inline void PutRay(PacketState& state, std::size_t lane, const PacketStart& start) {
   for (std::size_t c = 0; c < 3; ++c) {
-    corners[c]->x[lane] = start.corners[c].x;
-    corners[c]->y[lane] = start.corners[c].y;
-    corners[c]->z[lane] = start.corners[c].z;
-    corners[c]->s[lane] = start.corners[c].scalar;
-    corners[c]->id[lane] = start.ids[c];
+    PacketState::LaneCorners& corner = state.corners[c];
+    corner.x[lane] = start.corners[c].x;
+    corner.y[lane] = start.corners[c].y;
+    corner.z[lane] = start.corners[c].z;
+    corner.s[lane] = start.corners[c].scalar;
+    corner.id[lane] = start.ids[c];
+    corner.right[lane] =
+        crossing(start.corners[(c + 1) % 3], start.corners[(c + 2) % 3]) != 0 ? -1.0f : 1.0f;
   }
-  state.cell[lane] = start.cell;
+  state.cells_by_4[lane] = 4 * start.cell;
   state.apex[lane] = start.apex;
   state.slope_x[lane] = start.line.slope_x;
   state.slope_y[lane] = start.line.slope_y;
@@ -349,85 +274,119 @@ HWY_INLINE void PutRay(PacketState& state, std::size_t lane, const PacketStart& 
   state.z_in[lane] = start.z;
   state.s_in[lane] = start.scalar;
   state.active[lane] = ~std::uint32_t{0};
+  state.begun[lane] = state.turn;
+  state.live |= 1u << lane;
 }
 
 // An empty lane walks from cell 0 to wherever numbers lead, and is not looked at.
-HWY_INLINE void PutNothing(PacketState& state, std::size_t lane) {
+inline void PutNothing(PacketState& state, std::size_t lane) {
   PutRay(state, lane, PacketStart{});
   state.active[lane] = 0;
+  state.live &= ~(1u << lane);
+}
+
+// A bit for each lane of which that is true.
+HWY_INLINE unsigned BitsOf(MF mask) {
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(DF(), mask, bytes);
+  return bytes[0] | static_cast<unsigned>(bytes[1]) << 8;
 }
 
 // Walks all rays that `feeder` has, `kPackets` packets in turn. `consumer` sees what they meet:
-//     begin(packet, lane, start);  end(packet, lane, start, z, left): z is where the ray was last;
+//     begin(packet, lane, start);
 //     MF visit(packet, active, length, s_in, s_out, cells): all lanes at once, for each step; those
-//     returned have seen enough. Lengths are in world units and >= 0 (see trace.h).
-// Without Consumer::kMeasure lengths, scalars and z mean nothing.
+//     returned have seen enough. Lengths are in world units and >= 0 (see trace.h);
+//     end(packet, lane, start, z, cells): z is where the ray was last, cells how many it met.
+// Without Consumer::kMeasure there is no visit(), and z means nothing.
 template <int kAxis, std::size_t kPackets, class Consumer>
-void WalkPackets(const WalkableTets& mesh, Consumer& consumer, PacketFeeder& feeder) {
-  const DF d;
-  const DU du;
-  const std::size_t lanes = hn::Lanes(d);
-  PacketState states[kPackets];
-  const PacketStart* starts[kPackets][kMaxLanes] = {};
-  std::size_t live = 0;
-  auto refill = [&](std::size_t packet, std::size_t lane) {
-    const PacketStart* start = feeder.next(starts[packet][lane]);
-    starts[packet][lane] = start;
-    if (start == nullptr) {
-      PutNothing(states[packet], lane);
-      return;
-    }
-    PutRay(states[packet], lane, *start);
-    consumer.begin(packet, lane, *start);
-    ++live;
-  };
-  for (std::size_t packet = 0; packet < kPackets; ++packet)
-    for (std::size_t lane = 0; lane < lanes; ++lane) refill(packet, lane);
+class PacketWalk {
+ public:
+  PacketWalk(const WalkableTets& mesh, Consumer& consumer, PacketFeeder& feeder)
+      : cells_(mesh.cells.data()),
+        points_(mesh.points.data()->position),
+        consumer_(consumer),
+        feeder_(feeder) {}
 
-  while (live > 0) {
-    for (std::size_t packet = 0; packet < kPackets; ++packet) {
-      PacketState& state = states[packet];
+  void run() {
+    for (std::size_t packet = 0; packet < kPackets; ++packet)
+      for (std::size_t lane = 0; lane < hn::Lanes(DF()); ++lane) give_ray(packet, lane);
+    run(std::make_index_sequence<kPackets>());
+  }
+
+ private:
+  // Places of packets are constants here, so that packets can be in registers.
+  template <std::size_t... kPlace>
+  void run(std::index_sequence<kPlace...>) {
+    Packet<Consumer::kMeasure> packets[kPackets];
+    (packets[kPlace].Load(states_[kPlace]), ...);
+    while (rays_ > 0) (turn(kPlace, packets[kPlace]), ...);
+  }
+
+  HWY_INLINE void turn(std::size_t place, Packet<Consumer::kMeasure>& packet) {
+    const DF d;
+    const DU du;
+    PacketState& state = states_[place];
+    if (HWY_UNLIKELY(state.ended != 0)) {
+      packet.Store(state);
+      refill(place);
+      packet.Load(state);
+    }
+    ++state.turn;
+    const VU cells = hn::ShiftRight<2>(hn::Load(du, state.cells_by_4));
+    const StepResult step = Step<kAxis, Consumer::kMeasure>(cells_, points_, state, packet);
+    MF ended = step.left;
+    if constexpr (Consumer::kMeasure) {
+      // Where cells overlap a ray would have to go back; it waits instead.
+      const VF along = hn::Mul(hn::Sub(step.z, packet.z_in), hn::Load(d, state.t_per_z));
+      const MF onwards = hn::Gt(along, hn::Zero(d));
+      const VF length = hn::IfThenElseZero(onwards, along);
+      packet.z_in = hn::IfThenElse(onwards, step.z, packet.z_in);
       const MF active = hn::RebindMask(d, hn::Ne(hn::Load(du, state.active), hn::Zero(du)));
-      const VF s_in = hn::Load(d, state.s_in);
-      const VU cells = hn::Load(du, state.cell);
-      const StepResult step = Step<kAxis, Consumer::kMeasure>(mesh, state);
-      VF length = s_in;
-      if constexpr (Consumer::kMeasure) {
-        const VF z_in = hn::Load(d, state.z_in);
-        length = hn::Mul(hn::Sub(step.z, z_in), hn::Load(d, state.t_per_z));
-        // Where cells overlap a ray would have to go back; it waits instead.
-        const MF onwards = hn::Gt(length, hn::Zero(d));
-        length = hn::IfThenElseZero(onwards, length);
-        hn::Store(hn::IfThenElse(onwards, step.z, z_in), d, state.z_in);
-        hn::Store(step.s, d, state.s_in);
-      }
-      const MF enough = consumer.visit(packet, active, length, s_in, step.s, cells);
-      const MF ended = hn::Or(step.left, hn::And(active, enough));
-      if (HWY_LIKELY(hn::AllFalse(d, ended))) continue;
-      HWY_ALIGN std::uint32_t which[kMaxLanes];
-      HWY_ALIGN std::uint32_t gone[kMaxLanes];
-      hn::Store(hn::VecFromMask(du, hn::RebindMask(du, ended)), du, which);
-      hn::Store(hn::VecFromMask(du, hn::RebindMask(du, step.left)), du, gone);
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
-        if (which[lane] == 0) continue;
-        --live;
-        consumer.end(packet, lane, *starts[packet][lane], state.z_in[lane], gone[lane] != 0);
-        refill(packet, lane);
-      }
+      ended = hn::Or(ended, consumer_.visit(place, active, length, packet.s_in, step.s, cells));
+      packet.s_in = step.s;
+    }
+    state.ended = BitsOf(ended) & state.live;
+  }
+
+  HWY_NOINLINE void refill(std::size_t place) {
+    PacketState& state = states_[place];
+    for (unsigned ended = std::exchange(state.ended, 0u); ended != 0; ended &= ended - 1) {
+      const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(ended);
+      --rays_;
+      consumer_.end(place, lane, *starts_[place][lane], state.z_in[lane],
+                    state.turn - state.begun[lane]);
+      give_ray(place, lane);
     }
   }
-}
+
+  void give_ray(std::size_t place, std::size_t lane) {
+    const PacketStart* const start = feeder_.next(starts_[place][lane]);
+    starts_[place][lane] = start;
+    if (start == nullptr) return PutNothing(states_[place], lane);
+    PutRay(states_[place], lane, *start);
+    consumer_.begin(place, lane, *start);
+    ++rays_;
+  }
+
+  const WalkableTets::Cell* const cells_;
+  const float* const points_;
+  Consumer& consumer_;
+  PacketFeeder& feeder_;
+  PacketState states_[kPackets];
+  const PacketStart* starts_[kPackets][kMaxLanes] = {};
+  std::size_t rays_ = 0;
+};
 
 // The same, with the axis known when it runs.
 template <std::size_t kPackets, class Consumer>
 void WalkAlong(const WalkableTets& mesh, int axis, Consumer& consumer, PacketFeeder& feeder) {
   switch (axis) {
     case 0:
-      return WalkPackets<0, kPackets>(mesh, consumer, feeder);
+      return PacketWalk<0, kPackets, Consumer>(mesh, consumer, feeder).run();
     case 1:
-      return WalkPackets<1, kPackets>(mesh, consumer, feeder);
+      return PacketWalk<1, kPackets, Consumer>(mesh, consumer, feeder).run();
     default:
-      return WalkPackets<2, kPackets>(mesh, consumer, feeder);
+      return PacketWalk<2, kPackets, Consumer>(mesh, consumer, feeder).run();
   }
 }
 

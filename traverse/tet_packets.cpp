@@ -9,25 +9,17 @@ HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-constexpr std::size_t kPackets = 4;
+constexpr std::size_t kPackets = 2;
 
 // Counts steps, and nothing else.
 struct CountConsumer {
   static constexpr bool kMeasure = false;
 
   std::span<std::uint32_t> counts;
-  HWY_ALIGN std::uint32_t steps[kPackets][kMaxLanes] = {};
 
-  HWY_INLINE void begin(std::size_t packet, std::size_t lane, const PacketStart&) {
-    steps[packet][lane] = 0;
-  }
-  HWY_INLINE MF visit(std::size_t packet, MF /*active*/, VF, VF, VF, VU) {
-    const DU du;
-    hn::Store(hn::Add(hn::Load(du, steps[packet]), hn::Set(du, 1)), du, steps[packet]);
-    return hn::MaskFromVec(hn::Zero(DF()));
-  }
-  HWY_INLINE void end(std::size_t packet, std::size_t lane, const PacketStart& start, float, bool) {
-    counts[start.ray] += steps[packet][lane];
+  void begin(std::size_t, std::size_t, const PacketStart&) {}
+  void end(std::size_t, std::size_t, const PacketStart& start, float, std::uint32_t cells) {
+    counts[start.ray] += cells;
   }
 };
 
@@ -60,7 +52,7 @@ struct SegmentConsumer {
         sink.take({rays[packet][lane], cell[lane], lengths[lane], front[lane], back[lane]});
     return hn::MaskFromVec(hn::Zero(d));
   }
-  void end(std::size_t, std::size_t, const PacketStart&, float, bool) {}
+  void end(std::size_t, std::size_t, const PacketStart&, float, std::uint32_t) {}
 };
 
 void WalkSegments(const WalkableTets& mesh, int axis, PacketFeeder& feeder,

@@ -8,7 +8,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <utility>
 
 #include "plume/mesh/walkable_tets.h"
 #include "plume/traverse/measure.h"
@@ -37,22 +36,17 @@ class TetWalker {
 
   /// Starts at a boundary face that winds about the ray.
   void enter(const Boundary& face, std::uint32_t /*rank*/) {
+    corners_ = triangle(face);
+    for (std::size_t i = 0; i < 3; ++i)
+      right_[i] = crosses_right(corners_[(i + 1) % 3], corners_[(i + 2) % 3]);
     next_ = {face.cell, face.apex};
-    auto t = triangle(face);
-    if (boundary_winding(face) < 0) std::swap(t[1], t[2]);
-    // Of a triangle that winds once, one edge counts, and that one once.
-    std::size_t first = 0;
-    while (crossing(t[first].at, t[(first + 1) % 3].at) == 0) ++first;
-    low_ = t[first];
-    high_ = t[(first + 1) % 3];
-    third_ = t[(first + 2) % 3];
     cell_ = next_.cell;
   }
 
   /// The same for a lane of a packet; enter() must have been called.
   PacketStart packet_start(const Crossing& place, std::uint32_t ray) const {
-    return {{low_.at, high_.at, third_.at},
-            {low_.id, high_.id, third_.id},
+    return {{corners_[0].at, corners_[1].at, corners_[2].at},
+            {corners_[0].id, corners_[1].id, corners_[2].id},
             next_.cell,
             next_.apex,
             frame_.line(),
@@ -64,40 +58,40 @@ class TetWalker {
 
   std::uint32_t cell() const { return cell_; }
 
-  /// Where the ray leaves the current cell.
+  /// Finds the face by which the ray leaves the current cell.
   ///
-  /// The triangle by which it came in winds once about the ray: the edge from low to high crosses
-  /// on the right, and the edge that comes down again, past the third corner, on the left. The
-  /// apex is joined to the end of the first edge that lies across from it, and if that edge crosses
-  /// on the right as well, it is the new first edge, unless the one to the third corner is. So two
-  /// tests tell which of the three faces around the apex winds once: the way out, and the triangle
-  /// by which the next cell is entered.
-  std::optional<Crossing> leave() {
+  /// A triangle has two edges that cross y = 0, one up and one down, or none; so it winds about the
+  /// ray if and only if an odd number of its edges crosses on the ray's right. The triangle by
+  /// which the ray came in winds; the bits of the three edges from its corners to the apex tell
+  /// which of the three faces around the apex does: one of them, as windings sum to zero. That is
+  /// the way out, and the triangle by which the next cell is entered.
+  void decide() {
     const Corner apex{next_.apex, frame_(mesh_.points[next_.apex])};
-    const bool up = apex.at.up();
-    Corner& across = up ? low_ : high_;  // its edge to the apex may cross
-    Corner& beside = up ? high_ : low_;  // its edge to the apex does not
-    bool first = crossing(across.at, apex.at) != 0;
-    const bool second = crossing(third_.at, apex.at) != 0;
-    // Rounding may let all four faces wind about the ray: two ways in and two out. Faces are known
-    // by the point that they leave out; the way in with the smaller point goes with the way out
-    // with the smaller one, which is one-to-one and the same whichever way in we came by.
-    if (!first && second) first = (apex.id < beside.id) == (across.id < third_.id);
+    const bool to_apex[3] = {crosses_right(corners_[0], apex), crosses_right(corners_[1], apex),
+                             crosses_right(corners_[2], apex)};
+    // The face that leaves out corner i.
+    auto winds = [&](std::size_t i) {
+      return (right_[i] != to_apex[(i + 1) % 3]) != to_apex[(i + 2) % 3];
+    };
+    std::size_t out;
+    if (winds(0))
+      out = winds(1) ? way_out_of_two(apex) : 0;
+    else
+      out = winds(1) ? 1 : 2;
 
-    Corner behind;  // the corner that the face left through leaves out
-    if (!first) {
-      behind = std::exchange(third_, apex);
-    } else if (second) {
-      behind = std::exchange(across, third_);
-      third_ = std::exchange(beside, apex);
-    } else {
-      behind = std::exchange(beside, apex);
-    }
-    const std::size_t rank = static_cast<std::size_t>(low_.id < behind.id) +
-                             static_cast<std::size_t>(high_.id < behind.id) +
-                             static_cast<std::size_t>(third_.id < behind.id);
+    const std::uint32_t behind = corners_[out].id;
+    corners_[out] = apex;
+    right_[(out + 1) % 3] = to_apex[(out + 2) % 3];
+    right_[(out + 2) % 3] = to_apex[(out + 1) % 3];
+    std::size_t rank = 0;
+    for (const Corner& corner : corners_) rank += corner.id < behind ? 1 : 0;
     next_ = mesh_.cells[cell_][rank];
-    return measure_triangle(low_.at, high_.at, third_.at);
+  }
+
+  /// The same, and where the ray crosses that face.
+  std::optional<Crossing> leave() {
+    decide();
+    return measure_triangle(corners_[0].at, corners_[1].at, corners_[2].at);
   }
 
   /// Into the cell behind the face left through; false at the boundary.
@@ -112,6 +106,19 @@ class TetWalker {
     ShearedPoint at;
   };
 
+  static bool crosses_right(const Corner& a, const Corner& b) { return crossing(a.at, b.at) != 0; }
+
+  /// Rounding may let all four faces wind about the ray: two ways in and two out, and two points on
+  /// each side of y = 0. Faces are known by the point that they leave out; the other way in is that
+  /// of the corner on the apex' side. The way in with the smaller point goes with the way out with
+  /// the smaller one, which is one-to-one and the same whichever way in we came by.
+  std::size_t way_out_of_two(const Corner& apex) const {
+    std::size_t in = 0;
+    while (corners_[in].at.up() != apex.at.up()) ++in;
+    const std::size_t p = (in + 1) % 3, q = (in + 2) % 3;
+    return (apex.id < corners_[in].id) == (corners_[p].id < corners_[q].id) ? p : q;
+  }
+
   std::array<Corner, 3> triangle(const Boundary& face) const {
     std::array<Corner, 3> corners;
     for (std::size_t i = 0; i < 3; ++i)
@@ -123,9 +130,10 @@ class TetWalker {
   const ShearedFrame& frame_;
   std::uint32_t cell_ = kNone;
   WalkableTets::Link next_{kNone, 0};
-  // The triangle by which the ray came into the cell: low is down, high is up, and the edge between
-  // them crosses on the ray's right.
-  Corner low_{}, high_{}, third_{};
+  // The triangle by which the ray came into the cell, and whether the edges across from its corners
+  // cross y = 0 on the ray's right.
+  std::array<Corner, 3> corners_{};
+  std::array<bool, 3> right_{};
 };
 
 }  // namespace plume

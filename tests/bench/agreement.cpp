@@ -43,21 +43,24 @@ std::string problem(const BenchWalker& walker, Mode mode, const Agreement& agree
 }
 
 Agreement drop_lost(const BenchMesh& mesh, std::vector<BenchView>& views) {
-  Agreement all;
-  for (BenchView& view : views) {
-    std::vector<PassageSum> right(view.passages.size()), sums(view.passages.size());
-    reference().walk(mesh, view, Mode::integral, right);
-    baseline().walk(mesh, view, Mode::integral, sums);
-    const Agreement agreement = compare(mesh, Mode::integral, right, sums);
-    all.same += agreement.same;
-    all.other_way += agreement.other_way;
-    all.different.insert(all.different.end(), agreement.different.begin(),
-                         agreement.different.end());
-    for (std::size_t i = agreement.different.size(); i-- > 0;)
-      view.passages.erase(view.passages.begin() +
-                          static_cast<std::ptrdiff_t>(agreement.different[i]));
-  }
-  return all;
+  Agreement of_baseline;
+  for (BenchView& view : views)
+    for (const BenchWalker& walker : walkers()) {
+      if (walker.exact) continue;
+      std::vector<PassageSum> right(view.passages.size()), sums(view.passages.size());
+      reference().walk(mesh, view, Mode::integral, right);
+      walker.walk(mesh, view, Mode::integral, sums);
+      const Agreement agreement = compare(mesh, Mode::integral, right, sums);
+      for (std::size_t i = agreement.different.size(); i-- > 0;)
+        view.passages.erase(view.passages.begin() +
+                            static_cast<std::ptrdiff_t>(agreement.different[i]));
+      if (&walker != &baseline()) continue;
+      of_baseline.same += agreement.same;
+      of_baseline.other_way += agreement.other_way;
+      of_baseline.different.insert(of_baseline.different.end(), agreement.different.begin(),
+                                   agreement.different.end());
+    }
+  return of_baseline;
 }
 
 }  // namespace plume::bench

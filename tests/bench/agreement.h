@@ -34,8 +34,8 @@ Agreement compare(const BenchMesh& mesh, Mode mode, std::span<const PassageSum> 
 /// that is no rounding.
 std::string problem(const BenchWalker& walker, Mode mode, const Agreement& agreement);
 
-/// Takes out of the views the passages that the baseline loses, so that all walkers are timed on
-/// the same work. What is returned counts all that there were.
+/// Takes out of the views the passages that a walker loses, so that all walkers are timed on the
+/// same work. What is returned counts all that there were, by what the baseline made of them.
 Agreement drop_lost(const BenchMesh& mesh, std::vector<BenchView>& views);
 
 }  // namespace plume::bench

@@ -95,7 +95,7 @@ BenchMesh make_bench_mesh(const Mesh& mesh, CellOrder order) {
   const ScalarField field = select_field(mesh);
   made.scalar_size = std::max(std::abs(field.low), std::abs(field.high));
   made.tets = make_walkable_tets(mesh, field, made.bounds, false);
-  made.plucker = make_plucker_mesh(find_tet_adjacency(mesh, field, made.bounds));
+  made.plucker = make_plucker_mesh(mesh, find_tet_adjacency(mesh, field, made.bounds));
   if (order == CellOrder::random) shuffle_cells(made.tets, made.plucker);
   made.optics.isovalue = 0.5f * (percentile(field.values, 0.01) + percentile(field.values, 0.99));
   made.optics.table =

@@ -8,6 +8,7 @@
 namespace plume::bench {
 namespace {
 
+template <PluckerProducts kProducts>
 void walk_plucker_passages(const BenchMesh& mesh, const BenchView& view, Mode mode,
                            std::span<PassageSum> sums) {
   with_consumer<float>(mode, [&]<class Consumer>() {
@@ -16,7 +17,7 @@ void walk_plucker_passages(const BenchMesh& mesh, const BenchView& view, Mode mo
       const PluckerRay ray(view.rays[passage.ray], mesh.plucker.frame);
       Consumer consumer(mesh.optics);
       NoAudit audit;
-      const PluckerWalk walk = walk_plucker(
+      const PluckerWalk walk = walk_plucker<kProducts>(
           mesh.plucker, ray, mesh.tets.boundary[passage.entry.boundary], consumer, audit);
       sums[i] = consumer.sum(walk.cells);
     }
@@ -39,9 +40,10 @@ void walk_tets(const BenchMesh& mesh, const BenchView& view, Mode mode,
       std::uint32_t cells = 0;
       do {
         ++cells;
-        const std::optional<Crossing> exit = walker.leave();
-        if (!exit) break;
-        if constexpr (Consumer::kMeasures) {
+        if constexpr (!Consumer::kMeasures) {
+          walker.decide();
+        } else {
+          const std::optional<Crossing> exit = walker.leave();
           const double t_out = std::max(t_in, frame.t(exit->z));
           if (!consumer.add(t_in, t_out, s_in, exit->scalar)) break;
           t_in = t_out;
@@ -70,8 +72,10 @@ bool BenchWalker::has(Mode mode) const {
 
 const std::vector<BenchWalker>& walkers() {
   static const std::vector<BenchWalker> all{
-      {"plucker", walk_plucker_passages, kAllModes, false, plucker_bytes},
+      {"plucker", walk_plucker_passages<PluckerProducts::thesis>, kAllModes, false, plucker_bytes},
       {"tet-walker", walk_tets, kAllModes, true, tets_bytes},
+      {"plucker-fast", walk_plucker_passages<PluckerProducts::relative>, kAllModes, false,
+       plucker_bytes},
       {"tet-packets", walk_packet_passages, {Mode::cells}, true, tets_bytes},
   };
   return all;

@@ -7,23 +7,11 @@
 #include <string>
 
 #include "plume/mesh/error.h"
+#include "plume/mesh/huge_pages.h"
 
 namespace plume::bench {
-namespace {
 
-// Which of the neighbour's points none of the common face is; the face leaves out `apex` of `cell`.
-std::uint32_t point_across(const TetAdjacency::Cell& cell, std::uint32_t apex,
-                           const TetAdjacency::Cell& neighbor) {
-  for (std::uint32_t i = 0; i < 3; ++i) {
-    const auto same = std::find(cell.points.begin(), cell.points.end(), neighbor.points[i]);
-    if (same == cell.points.end() || *same == apex) return i;
-  }
-  return 3;
-}
-
-}  // namespace
-
-PluckerMesh make_plucker_mesh(TetAdjacency adjacency) {
+PluckerMesh make_plucker_mesh(const Mesh& source, TetAdjacency adjacency) {
   const auto& cells = adjacency.cells;
   if (cells.size() >= kNone / 4)
     throw Error("the Plücker baseline numbers cells with 30 bits; this mesh has " +
@@ -31,17 +19,36 @@ PluckerMesh make_plucker_mesh(TetAdjacency adjacency) {
   PluckerMesh mesh;
   mesh.frame = adjacency.frame;
   mesh.points = std::move(adjacency.points);
-  mesh.cells.resize(cells.size());
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 4096), [&](const auto& range) {
-    for (std::size_t i = range.begin(); i != range.end(); ++i) {
-      const TetAdjacency::Cell& cell = cells[i];
-      mesh.cells[i].points = cell.points;
-      for (std::size_t f = 0; f < 4; ++f) {
-        const std::uint32_t neighbor = cell.neighbors[f];
-        mesh.cells[i].neighbors[f] =
-            neighbor == kNone ? kNone
-                              : 4 * neighbor + point_across(cell, cell.points[f], cells[neighbor]);
-      }
+  // As for our own cells: pages are no part of the method.
+  resize_in_huge_pages(mesh.cells, cells.size());
+  const auto for_each_cell = [&](const auto& body) {
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 4096),
+                      [&](const auto& range) {
+                        for (std::size_t c = range.begin(); c != range.end(); ++c) body(c);
+                      });
+  };
+  source.cells.connectivity.visit([&](auto ids) {
+    for_each_cell([&](std::size_t c) {
+      for (std::size_t v = 0; v < 4; ++v)
+        mesh.cells[c].points[v] =
+            adjacency
+                .numbers[static_cast<std::size_t>(ids[4 * std::size_t{adjacency.original[c]} + v])];
+    });
+  });
+  // Where a point is in a cell's list.
+  const auto place = [&](std::size_t c, std::uint32_t point) {
+    const auto& points = mesh.cells[c].points;
+    return static_cast<std::size_t>(std::find(points.begin(), points.end(), point) -
+                                    points.begin());
+  };
+  for_each_cell([&](std::size_t c) {
+    for (std::size_t face = 4 * c; face < 4 * c + 4; ++face) {
+      const std::uint32_t partner = adjacency.partner(face);
+      mesh.cells[c].neighbors[place(c, adjacency.point(face))] =
+          partner == kNone
+              ? kNone
+              : partner / 4 * 4 +
+                    static_cast<std::uint32_t>(place(partner / 4, adjacency.point(partner)));
     }
   });
   return mesh;

@@ -2,9 +2,11 @@
 ///
 /// G. Marmitt, "Interactive Volume Ray Tracing" (Saarland University, 2008), sections 6.3.1 to
 /// 6.3.5: the optimised approach of table 6.1 and algorithm 9 (left), in single precision, with its
-/// 32 bytes a cell and 16 a point. It is to be as fast as that algorithm can be made in scalar
-/// code, or else a ratio to it means nothing: where the thesis leaves the choice, what was fastest
-/// on the meshes of the suite was taken.
+/// 32 bytes a cell and 16 a point, in two forms. One has the products as the thesis defines them
+/// (equations 6.1 and 6.3): that is the baseline. The other is as fast as we could make the
+/// algorithm in scalar code, so that nobody need wonder what the ratio owes to the baseline's
+/// clumsiness. Where the thesis leaves the choice, what was fastest on the meshes of the suite was
+/// taken in both.
 #pragma once
 
 #include <array>
@@ -40,13 +42,22 @@ struct PluckerMesh {
   }
 };
 
-/// Throws Error where 30 bits do not number the cells.
-PluckerMesh make_plucker_mesh(TetAdjacency adjacency);
+/// Of a mesh and its find_tet_adjacency(); cells list their points in the order of the mesh. Throws
+/// Error where 30 bits do not number the cells.
+PluckerMesh make_plucker_mesh(const Mesh& mesh, TetAdjacency adjacency);
 
-/// A ray in local coordinates. Its Plücker coordinates are {d : d x o}; relative to a point o on
-/// the ray itself they are {d : 0}, which saves half of every product. o is the point nearest to
-/// the centre of the mesh, as in our own frame (sheared_frame.h), so that a camera far away costs
-/// no precision.
+/// How products of a ray and an edge are computed.
+enum class PluckerProducts {
+  /// The permuted inner product (6.3) of two lines' coordinates {d : d x o} (6.1).
+  thesis,
+  /// Relative to a point o on the ray itself the ray's coordinates are {d : 0}, which saves half of
+  /// every product; and all edges of a cell that are tested end in the same vertex, whose part is
+  /// computed once.
+  relative,
+};
+
+/// A ray in local coordinates. o is the point nearest to the centre of the mesh, as in our own
+/// frame (sheared_frame.h), so that a camera far away costs no precision.
 struct PluckerRay {
   PluckerRay(const Ray& ray, const LocalFrame& frame);
 
@@ -86,39 +97,44 @@ inline constexpr std::uint32_t kPluckerLongest = 1u << 16;
 /// Where the ray meets a vertex or an edge, products are zero or have the sign that rounding gives
 /// them, in each cell anew. The walk goes on through some face, and may leave the ray for good or
 /// run in a circle: that is what "lost" means.
-template <class Consumer, class Audit>
+template <PluckerProducts kProducts, class Consumer, class Audit>
 PluckerWalk walk_plucker(const PluckerMesh& mesh, const PluckerRay& ray,
                          const WalkableTets::Boundary& entry, Consumer& consumer, Audit& audit) {
-  struct Vertex {
-    std::uint32_t id;
-    float x, y, z;        // relative to o
-    float along, scalar;  // along the ray, in local units
-  };
   struct Vector {
     float x, y, z;
   };
-  const float dx = ray.d[0], dy = ray.d[1], dz = ray.d[2];
+  struct Vertex {
+    std::uint32_t id;
+    Vector at;            // for relative products: from o
+    float along, scalar;  // along the ray, in local units
+  };
+  const Vector d{ray.d[0], ray.d[1], ray.d[2]};
+  const Vector o{ray.o[0], ray.o[1], ray.o[2]};
+  auto cross = [](const Vector& p, const Vector& q) {
+    return Vector{p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+  };
+  auto dot = [](const Vector& p, const Vector& q) { return p.x * q.x + p.y * q.y + p.z * q.z; };
+  auto minus = [](const Vector& p, const Vector& q) {
+    return Vector{p.x - q.x, p.y - q.y, p.z - q.z};
+  };
+  const Vector d_x_o = cross(d, o);
   auto vertex = [&](std::uint32_t id) {
     const WalkablePoint& p = mesh.points[id];
-    Vertex v{
-        id,      p.position[0] - ray.o[0], p.position[1] - ray.o[1], p.position[2] - ray.o[2], 0,
-        p.scalar};
-    if constexpr (Consumer::kMeasures) v.along = dx * v.x + dy * v.y + dz * v.z;
+    Vertex v{id, {p.position[0], p.position[1], p.position[2]}, 0, p.scalar};
+    const Vector from_o = minus(v.at, o);
+    if constexpr (kProducts == PluckerProducts::relative) v.at = from_o;
+    if constexpr (Consumer::kMeasures) v.along = dot(d, from_o);
     return v;
   };
-  // The permuted inner product of the ray {d : 0} and the edge from -> to, {to - from : (to - from)
-  // x from}, is d . (to x from) = (d x to) . from. All edges of a cell that are tested end in its
-  // fourth vertex, so d x to is computed once for them.
-  auto moment = [&](const Vertex& to) {
-    return Vector{dy * to.z - dz * to.y, dz * to.x - dx * to.z, dx * to.y - dy * to.x};
-  };
-  auto product = [](const Vertex& from, const Vector& m) {
-    return m.x * from.x + m.y * from.y + m.z * from.z;
+  auto product = [&](const Vertex& from, const Vertex& to) {
+    if constexpr (kProducts == PluckerProducts::relative) return dot(cross(d, to.at), from.at);
+    const Vector edge = minus(to.at, from.at);
+    return dot(d, cross(edge, from.at)) + dot(d_x_o, edge);
   };
 
   // The face by which the ray is in the cell, seen such that its products are positive.
   Vertex v0 = vertex(entry.loop[0]), v1 = vertex(entry.loop[1]), v2 = vertex(entry.loop[2]);
-  float w01 = product(v0, moment(v1)), w12 = product(v1, moment(v2)), w20 = product(v2, moment(v0));
+  float w01 = product(v0, v1), w12 = product(v1, v2), w20 = product(v2, v0);
   if (w01 + w12 + w20 < 0) {
     std::swap(v1, v2);
     const float w02 = w20;
@@ -152,8 +168,7 @@ PluckerWalk walk_plucker(const PluckerMesh& mesh, const PluckerRay& ray,
   for (;;) {
     ++walk.cells;
     const Vertex v3 = vertex(apex);
-    const Vector m = moment(v3);
-    const float w03 = product(v0, m), w13 = product(v1, m);
+    const float w03 = product(v0, v3), w13 = product(v1, v3);
     // The new vertex takes the place of the one that is left behind: then each of the three ways
     // out is as likely as the others, and there are 2 + 2/3 tests a cell. (With the new vertex
     // always last there would be 2.9.)
@@ -164,7 +179,7 @@ PluckerWalk walk_plucker(const PluckerMesh& mesh, const PluckerRay& ray,
       w20 = -w03;
       audit.count_tests(2);
     } else {
-      const float w23 = product(v2, m);
+      const float w23 = product(v2, v3);
       audit.count_tests(3);
       if (w23 > 0) {
         behind = std::exchange(v0, v3).id;

@@ -45,12 +45,13 @@ struct Audited {
   std::uint64_t cells = 0, tests = 0, lost = 0;
 };
 
+template <PluckerProducts kProducts>
 Audited audit(const Fixture& fixture, const BenchView& view) {
   Audited audited;
   CountingAudit counting;
   for (const Passage& passage : view.passages) {
     CellsConsumer<float> consumer(fixture.made.optics);
-    const PluckerWalk walk = walk_plucker(
+    const PluckerWalk walk = walk_plucker<kProducts>(
         fixture.made.plucker, PluckerRay(view.rays[passage.ray], fixture.made.plucker.frame),
         fixture.made.tets.boundary[passage.entry.boundary], consumer, counting);
     audited.cells += walk.cells;
@@ -78,9 +79,12 @@ TEST(PluckerWalker, MeetsAsManyCellsAsOursOnRandomRays) {
 
 TEST(PluckerWalker, TakesTwoAndTwoThirdsTestsACell) {
   const Fixture fixture(16, 0.2);
-  const Audited audited = audit(fixture, fixture.view(random_rays(fixture, 20000)));
-  EXPECT_NEAR(static_cast<double>(audited.tests) / static_cast<double>(audited.cells), 2.67, 0.1);
-  EXPECT_LE(audited.lost, 5u);
+  const BenchView view = fixture.view(random_rays(fixture, 20000));
+  for (const Audited& audited : {audit<PluckerProducts::thesis>(fixture, view),
+                                 audit<PluckerProducts::relative>(fixture, view)}) {
+    EXPECT_NEAR(static_cast<double>(audited.tests) / static_cast<double>(audited.cells), 2.67, 0.1);
+    EXPECT_LE(audited.lost, 5u);
+  }
 }
 
 TEST(PluckerWalker, LosesRaysAtVerticesWhereOursLosesNone) {
@@ -99,7 +103,8 @@ TEST(PluckerWalker, LosesRaysAtVerticesWhereOursLosesNone) {
   }
   const BenchView view = fixture.view(rays);
   ASSERT_GT(view.passages.size(), 4000u);
-  EXPECT_GT(audit(fixture, view).lost, view.passages.size() / 100);
+  EXPECT_GT(audit<PluckerProducts::thesis>(fixture, view).lost, view.passages.size() / 100);
+  EXPECT_GT(audit<PluckerProducts::relative>(fixture, view).lost, view.passages.size() / 100);
 
   const Bounds& bounds = fixture.made.bounds;
   for (const Ray& ray : rays) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "plume/mesh/error.h"
+#include "plume/tests/bench/build_bench.h"
 #include "plume/tests/bench/result_table.h"
 #include "plume/tests/bench/tet_bench.h"
 
@@ -52,6 +53,7 @@ int main(int argc, char** argv) {
   benchmark::Initialize(&count, rest.data());
   if (benchmark::ReportUnrecognizedArguments(count, rest.data())) return 1;
   try {
+    plume::bench::register_build_benchmarks({options.all, options.rounds});
     plume::bench::register_tet_benchmarks(options);
     benchmark::RunSpecifiedBenchmarks();
   } catch (const plume::Error& error) {
@@ -60,5 +62,5 @@ int main(int argc, char** argv) {
   }
   benchmark::Shutdown();
   if (table) std::fputs(plume::bench::result_table(plume::bench::tet_results()).c_str(), stdout);
-  return plume::bench::tet_bench_failed() ? 1 : 0;
+  return plume::bench::tet_bench_failed() || plume::bench::build_bench_failed() ? 1 : 0;
 }

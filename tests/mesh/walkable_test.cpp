@@ -10,7 +10,6 @@
 #include "plume/mesh/closed_cell.h"
 #include "plume/mesh/connected_parts.h"
 #include "plume/mesh/error.h"
-#include "plume/mesh/space_curve.h"
 #include "plume/mesh/validate.h"
 #include "test_meshes.h"
 
@@ -239,24 +238,6 @@ TEST(WalkableCells, APolyhedronWithAGapIsNamedAndLeftOut) {
   EXPECT_EQ(cells.cell_count(), 0u);
   ASSERT_EQ(cells.findings.size(), 1u);
   EXPECT_EQ(describe(cells.findings[0]), "1 cells whose faces leave a gap, left out: 0");
-}
-
-TEST(HilbertKey, IsAPathThroughNeighbors) {
-  // Among the centres of an 8 x 8 x 8 lattice, those next in order are next in space.
-  std::vector<std::array<float, 3>> places;
-  for (int k = 0; k < 8; ++k)
-    for (int j = 0; j < 8; ++j)
-      for (int i = 0; i < 8; ++i)
-        places.push_back({(static_cast<float>(i) + 0.5f) / 4 - 1,
-                          (static_cast<float>(j) + 0.5f) / 4 - 1,
-                          (static_cast<float>(k) + 0.5f) / 4 - 1});
-  const auto order = hilbert_order(places.size(), [&](std::size_t i) { return places[i]; });
-  for (std::size_t i = 1; i < order.size(); ++i) {
-    float steps = 0;
-    for (std::size_t a = 0; a < 3; ++a)
-      steps += std::abs(places[order[i]][a] - places[order[i - 1]][a]) * 4;
-    EXPECT_EQ(steps, 1) << i;
-  }
 }
 
 TEST(LocalFrame, ScalesByPowersOfTwoAndKeepsDistantMeshes) {
