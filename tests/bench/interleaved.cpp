@@ -1,25 +1,8 @@
 #include "plume/tests/bench/interleaved.h"
 
-#include <time.h>
-
-#include <algorithm>
+#include "plume/tests/bench/timing.h"
 
 namespace plume::bench {
-namespace {
-
-double thread_seconds() {
-  timespec now{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
-
-double median(std::vector<double> values) {
-  const std::size_t middle = values.size() / 2;
-  std::sort(values.begin(), values.end());
-  return values.size() % 2 == 1 ? values[middle] : 0.5 * (values[middle - 1] + values[middle]);
-}
-
-}  // namespace
 
 std::vector<WalkerTimes> measure(const BenchMesh& mesh, const std::vector<BenchView>& views,
                                  Mode mode, int rounds) {

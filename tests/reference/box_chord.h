@@ -37,4 +37,20 @@ inline double box_chord(const std::array<double, 3>& low, const std::array<doubl
   return std::max(0.0, span[1] - span[0]);
 }
 
+/// What rounding may make of a chord: that with the box made smaller and larger by `slack` on every
+/// side, and `slack` on top. A ray in the plane of a side sees all or nothing of it.
+inline std::array<double, 2> box_chord_range(std::array<double, 3> low, std::array<double, 3> high,
+                                             const std::array<double, 3>& origin,
+                                             const std::array<double, 3>& direction, double slack) {
+  std::array<double, 3> inner_low = low, inner_high = high;
+  for (std::size_t a = 0; a < 3; ++a) {
+    inner_low[a] += slack;
+    inner_high[a] -= slack;
+    low[a] -= slack;
+    high[a] += slack;
+  }
+  return {box_chord(inner_low, inner_high, origin, direction) - slack,
+          box_chord(low, high, origin, direction) + slack};
+}
+
 }  // namespace plume::reference

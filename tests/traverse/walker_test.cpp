@@ -64,22 +64,12 @@ Mesh moved(Mesh mesh, double scale, double offset) {
   return mesh;
 }
 
-// What rounding may make of a chord: the true box, made smaller and larger by what single precision
-// resolves of the mesh. A ray in the plane of a side sees all or nothing of it.
+// The box made smaller and larger by what single precision resolves of the mesh.
 void expect_chord(const Bounds& bounds, const Ray& ray, double sum, const std::string& which) {
-  const double slack = 2e-6 * bounds.diagonal();
-  std::array<double, 3> inner_low = bounds.low, inner_high = bounds.high;
-  std::array<double, 3> outer_low = bounds.low, outer_high = bounds.high;
-  for (std::size_t a = 0; a < 3; ++a) {
-    inner_low[a] += slack;
-    inner_high[a] -= slack;
-    outer_low[a] -= slack;
-    outer_high[a] += slack;
-  }
-  ASSERT_GE(sum, reference::box_chord(inner_low, inner_high, ray.origin, ray.direction) - slack)
-      << which;
-  ASSERT_LE(sum, reference::box_chord(outer_low, outer_high, ray.origin, ray.direction) + slack)
-      << which;
+  const auto range = reference::box_chord_range(bounds.low, bounds.high, ray.origin, ray.direction,
+                                                2e-6 * bounds.diagonal());
+  ASSERT_GE(sum, range[0]) << which;
+  ASSERT_LE(sum, range[1]) << which;
 }
 
 // `rays` rays through a mesh that fills its bounds: none lost, segments that join, sums that are

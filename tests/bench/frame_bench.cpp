@@ -1,0 +1,64 @@
+// Whole frames: plume_frame_bench. See --help.
+
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+
+#include "plume/mesh/error.h"
+#include "plume/tests/bench/peer_frames.h"
+#include "plume/tests/bench/thread_scaling.h"
+
+namespace {
+
+constexpr const char* kHelp = R"(plume_frame_bench: whole frames, from the rays to the picture
+
+  --peers          against VTK's ray caster, with each of its integrators, on one thread
+  --threads        two threads against one
+                   both where neither is asked for
+  --rounds=N       how many frames each (5 and 7); medians are reported
+  --size=N         pixels along each side (512 and 1024)
+  --pictures=DIR   writes the pictures that are compared with VTK's, as PNG files
+The blunt fin is read from the directory PLUME_DATASETS, by default ../shared/datasets.
+)";
+
+// False where the argument is not `name` and a number.
+bool take(const std::string& argument, const std::string& name, int& value) {
+  if (argument.rfind(name, 0) != 0) return false;
+  value = std::atoi(argument.c_str() + name.size());
+  return value > 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  bool peers = false, threads = false;
+  int rounds = 0, size = 0;
+  std::string pictures;
+  for (int i = 1; i < argc; ++i) {
+    const std::string argument = argv[i];
+    if (argument == "--peers")
+      peers = true;
+    else if (argument == "--threads")
+      threads = true;
+    else if (argument.rfind("--pictures=", 0) == 0)
+      pictures = argument.substr(11);
+    else if (!take(argument, "--rounds=", rounds) && !take(argument, "--size=", size)) {
+      std::fputs(kHelp, argument == "--help" ? stdout : stderr);
+      return argument == "--help" ? 0 : 2;
+    }
+  }
+  plume::bench::PeerFrameOptions peer_options;
+  plume::bench::ThreadScalingOptions thread_options;
+  peer_options.pictures = pictures;
+  if (rounds > 0) peer_options.rounds = thread_options.rounds = rounds;
+  if (size > 0) peer_options.size = thread_options.size = size;
+  try {
+    bool good = true;
+    if (peers || !threads) good = plume::bench::compare_peer_frames(peer_options) && good;
+    if (threads || !peers) good = plume::bench::compare_threads(thread_options) && good;
+    return good ? 0 : 1;
+  } catch (const plume::Error& error) {
+    std::fprintf(stderr, "plume_frame_bench: %s\n", error.what());
+    return 1;
+  }
+}

@@ -1,0 +1,129 @@
+#include "plume/tests/long/soak_meshes.h"
+
+#include <array>
+#include <cmath>
+
+#include "plume/datasets/generate.h"
+#include "plume/mesh/explicit_cells.h"
+#include "plume/tests/bench/bench_meshes.h"
+
+namespace plume::test {
+namespace {
+
+using Place = std::array<double, 3>;
+
+Mesh box(int size, double jitter) { return generate("box-tetrahedra", {size, jitter, 7}); }
+
+// The mesh with each point put where `move` says.
+template <class Move>
+Mesh moved(Mesh mesh, const Move& move) {
+  std::vector<double> points;
+  points.reserve(mesh.points.size());
+  for (std::size_t p = 0; p < mesh.point_count(); ++p)
+    for (const double x : move(point_at(mesh, p))) points.push_back(x);
+  mesh.points = Array::own(std::move(points));
+  return mesh;
+}
+
+Mesh scaled(Mesh mesh, const Place& scale, double offset = 0) {
+  return moved(std::move(mesh), [&](const Place& p) {
+    return Place{p[0] * scale[0] + offset, p[1] * scale[1] + offset, p[2] * scale[2] + offset};
+  });
+}
+
+// Pressed into a slab of this thickness on a plane that no axis lies in: seen along it, all that
+// tells its edges apart is rounding.
+Mesh leaning(Mesh mesh, double thickness) {
+  return moved(std::move(mesh), [&](const Place& p) {
+    return Place{p[0], p[1], 0.37 * p[0] + 0.61 * p[1] + thickness * p[2]};
+  });
+}
+
+// Every second inner layer of points along z lies on the one below: cells of no volume between.
+Mesh with_flat_layers(int size) {
+  return moved(box(size, 0), [&](const Place& p) {
+    const double layer = std::round(p[2] * size);
+    const bool down = std::fmod(layer, 2) == 1 && layer < size;
+    return Place{p[0], p[1], down ? (layer - 1) / size : p[2]};
+  });
+}
+
+// Points on a coarse lattice: many coincide, many cells have no volume or are inside out.
+Mesh snapped(Mesh mesh, double lattice) {
+  return moved(std::move(mesh), [&](const Place& p) {
+    Place q;
+    for (std::size_t a = 0; a < 3; ++a) q[a] = std::round(p[a] * lattice) / lattice;
+    return q;
+  });
+}
+
+// Every second slab along x is taken away: rays leave and come in again.
+Mesh slabs(int size, double jitter) {
+  Mesh mesh = box(size, jitter);
+  const Mesh clean = box(size, 0);
+  std::vector<std::int32_t> kept;
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+    double x = 0;
+    std::array<std::int32_t, 4> ids;
+    for (std::size_t v = 0; v < 4; ++v) {
+      ids[v] = mesh.cells.connectivity.at<std::int32_t>(4 * c + v);
+      x += 0.25 * point_at(clean, static_cast<std::size_t>(ids[v]))[0];
+    }
+    if (static_cast<int>(x * size) % 2 == 0) kept.insert(kept.end(), ids.begin(), ids.end());
+  }
+  mesh.cells.connectivity = Array::own(std::move(kept));
+  std::erase_if(mesh.fields, [](const Field& f) { return f.association == Association::cell; });
+  return mesh;
+}
+
+template <class Make>
+SoakSource made(const char* name, bool fills_bounds, const Make& make) {
+  return {name, fills_bounds, [make]() -> std::optional<Mesh> { return make(); }};
+}
+
+}  // namespace
+
+const std::vector<SoakSource>& soak_sources() {
+  static const std::vector<SoakSource> sources{
+      made("clean, dyadic", true, [] { return box(8, 0); }),
+      made("clean", true, [] { return box(5, 0); }),
+      made("jittered", true, [] { return box(12, 0.2); }),
+      made("jittered, finer", true, [] { return box(20, 0.25); }),
+      made("inverted", true, [] { return box(10, 3); }),
+      made("tangled", true, [] { return box(5, 10); }),
+      made("slivers", true,
+           [] {
+             return scaled(box(10, 0.25), {1, 1, 1e-4});
+           }),
+      made("needles", true,
+           [] {
+             return scaled(box(10, 0.25), {1e-4, 1, 1e-4});
+           }),
+      made("flat layers", true, [] { return with_flat_layers(8); }),
+      made("snapped", true, [] { return snapped(box(10, 0.4), 16); }),
+      made("collapsed", false,
+           [] {
+             return scaled(box(6, 0.2), {1, 1, 0});
+           }),
+      made("leaning sheet", false, [] { return leaning(box(6, 0.2), 0); }),
+      made("leaning slab", false, [] { return leaning(box(6, 0.2), 1e-6); }),
+      made("shifted by 1e7", true,
+           [] {
+             return scaled(box(8, 0.2), {1, 1, 1}, 1e7);
+           }),
+      made("tiny, 1e-9", true,
+           [] {
+             return scaled(box(8, 0.2), {1e-9, 1e-9, 1e-9});
+           }),
+      made("slabs", false, [] { return slabs(8, 0.2); }),
+      made("slabs, inverted", false, [] { return slabs(8, 2); }),
+      made("ball", false,
+           [] {
+             return generate("ball-tetrahedra", {6, 0.2, 1});
+           }),
+      {"blunt fin", false, bench::mesh_sources().front().load},
+  };
+  return sources;
+}
+
+}  // namespace plume::test
