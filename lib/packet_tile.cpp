@@ -13,11 +13,10 @@ bool PacketTile::prepare(std::size_t index, const std::optional<Entry>& entry, d
     ray.declined = true;
     return false;
   }
-  TetWalker walker(mesh_, ray.frame);
-  walker.enter(mesh_.boundary[entry->boundary], entry->rank);
   Crossing place = entry->place;
   if (overlap > 0) place.z = seen_until;
-  ray.start = walker.packet_start(place, static_cast<std::uint32_t>(index));
+  set_start(ray.start, mesh_, ray.frame, mesh_.boundary[entry->boundary], place,
+            static_cast<std::uint32_t>(index));
   ++ray.entries;
   return true;
 }

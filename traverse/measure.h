@@ -87,7 +87,7 @@ inline Crossing measure_triangle(const ShearedPoint& a, const ShearedPoint& b,
   const double p_height = p.y - lone_y, q_height = q.y - lone_y;
   const double p_distance = std::abs(lone_x * p.y - p.x * lone_y);
   // If both edges pass through the ray, one of them will do.
-  constexpr double kNothing = 1e-30;
+  constexpr double kNothing = 1e-200;
   const double q_distance = std::max(std::abs(lone_x * q.y - q.x * lone_y), kNothing);
   const double share = -lone_y / (p_distance * q_height + q_distance * p_height);
   const double of_p = q_distance * share, of_q = p_distance * share;

@@ -170,9 +170,17 @@ HWY_INLINE void Measure(const Corner<true>& a, const Corner<true>& b, const Corn
   place(&Corner<true>::z);
   place(&Corner<true>::s);
   const VF p_height = hn::Sub(p.y, lone.y), q_height = hn::Sub(q.y, lone.y);
-  const VF p_distance = hn::Abs(DifferenceOfProducts(lone.x, p.y, p.x, lone.y));
-  const VF q_distance =
-      hn::Max(hn::Abs(DifferenceOfProducts(lone.x, q.y, q.x, lone.y)), hn::Set(d, 1e-30f));
+  VF p_distance = hn::Abs(DifferenceOfProducts(lone.x, p.y, p.x, lone.y));
+  VF q_distance = hn::Abs(DifferenceOfProducts(lone.x, q.y, q.x, lone.y));
+  // Only their ratio counts: brought to about 1 by a power of two, so that no product of three
+  // coordinates underflows.
+  const DU du;
+  const VU exponent =
+      hn::And(hn::BitCast(du, hn::Max(p_distance, q_distance)), hn::Set(du, 0x7F800000u));
+  const VF scale = hn::BitCast(d, hn::Sub(hn::Set(du, 0x7F000000u), exponent));
+  p_distance = hn::Mul(p_distance, scale);
+  // If both edges pass through the ray, one of them will do.
+  q_distance = hn::Max(hn::Mul(q_distance, scale), hn::Set(d, 1e-30f));
   const VF share = hn::Div(lone.y, hn::MulAdd(p_distance, q_height, hn::Mul(q_distance, p_height)));
   const VF of_p = hn::Mul(q_distance, share), of_q = hn::Mul(p_distance, share);  // negative
   result.z =
@@ -265,8 +273,7 @@ inline void PutRay(PacketState& state, std::size_t lane, const PacketStart& star
     corner.z[lane] = start.corners[c].z;
     corner.s[lane] = start.corners[c].scalar;
     corner.id[lane] = start.ids[c];
-    corner.right[lane] =
-        crossing(start.corners[(c + 1) % 3], start.corners[(c + 2) % 3]) != 0 ? -1.0f : 1.0f;
+    corner.right[lane] = start.right[c] ? -1.0f : 1.0f;
   }
   state.cells_by_4[lane] = 4 * start.cell;
   state.apex_by_2[lane] = 2 * start.apex;

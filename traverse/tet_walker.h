@@ -11,7 +11,6 @@
 
 #include "plume/mesh/walkable_tets.h"
 #include "plume/traverse/measure.h"
-#include "plume/traverse/packet_start.h"
 
 namespace plume {
 
@@ -41,19 +40,6 @@ class TetWalker {
       right_[i] = crosses_right(corners_[(i + 1) % 3], corners_[(i + 2) % 3]);
     next_ = {face.cell, face.apex};
     cell_ = next_.cell;
-  }
-
-  /// The same for a lane of a packet; enter() must have been called.
-  PacketStart packet_start(const Crossing& place, std::uint32_t ray) const {
-    return {{corners_[0].at, corners_[1].at, corners_[2].at},
-            {corners_[0].id, corners_[1].id, corners_[2].id},
-            next_.cell,
-            next_.apex,
-            frame_.line(),
-            static_cast<float>(place.z),
-            place.scalar,
-            static_cast<float>(frame_.t_per_z()),
-            ray};
   }
 
   std::uint32_t cell() const { return cell_; }

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "plume/traverse/tet_packets.h"
-#include "plume/traverse/tet_walker.h"
 
 namespace plume::bench {
 namespace {
@@ -23,12 +22,11 @@ class PassageFeeder : public PacketFeeder {
     const std::uint32_t index = passages_[at_++];
     const Passage& passage = view_.passages[index];
     frame_.set(view_.rays[passage.ray], mesh_.tets.frame);
-    TetWalker walker(mesh_.tets, frame_);
-    walker.enter(mesh_.tets.boundary[passage.entry.boundary], passage.entry.rank);
     // A lane's place is free again when its ray has finished.
     PacketStart& start =
         finished ? starts_[static_cast<std::size_t>(finished - starts_.data())] : starts_[used_++];
-    start = walker.packet_start(passage.entry.place, index);
+    set_start(start, mesh_.tets, frame_, mesh_.tets.boundary[passage.entry.boundary],
+              passage.entry.place, index);
     return &start;
   }
 

@@ -57,7 +57,8 @@ void walk_twin(const SoakMesh& mesh, const ShearedFrame& frame, TwinWalk& walk) 
   for (auto entry = entries.first(mesh.boundary, walker, frame); entry;
        entry = entries.next(mesh.boundary, walker, frame)) {
     walker.enter(mesh.tets.boundary[entry->boundary], entry->rank);
-    walk.starts.push_back(walker.packet_start(entry->place, 0));
+    walk.starts.push_back(
+        make_start(mesh.tets, frame, mesh.tets.boundary[entry->boundary], entry->place, 0));
     Way& way = walk.ways.emplace_back();
     do {
       way.add(walker.cell());

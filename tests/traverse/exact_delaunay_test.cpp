@@ -394,8 +394,8 @@ TEST(TetWalker, WalksTheExactLengthThroughVerticesAndEdges) {
 }
 
 // The bits come from products of floats. Where a face is seen edge-on they may contradict products
-// in double: barycentric coordinates from those, clamped, once put the crossing off the ray by up to
-// the face's size, in some two of a thousand such rays.
+// in double: barycentric coordinates from those, clamped, once put the crossing off the ray by up
+// to the face's size, in some two of a thousand such rays.
 TEST(TetWalker, WalksTheExactLengthInThePlaneOfThinSlivers) {
   for (const int n : {4, 9, 17}) {
     SCOPED_TRACE("lattice of " + std::to_string(n));

@@ -75,7 +75,8 @@ void expect_twins(const Case& c) {
     if (!entry) continue;
     walker.enter(tets.boundary[entry->boundary], entry->rank);
     starts[static_cast<std::size_t>(frame.axis())].push_back(
-        walker.packet_start(entry->place, static_cast<std::uint32_t>(expected.size())));
+        make_start(tets, frame, tets.boundary[entry->boundary], entry->place,
+                   static_cast<std::uint32_t>(expected.size())));
     std::vector<Segment> segments;
     double t_in = frame.t(entry->place.z);
     float s_in = entry->place.scalar;
@@ -144,33 +145,37 @@ TEST(TetPackets, WalkAsFewRaysAsOne) {
 }
 
 // Three coordinates next to zero have a product that single precision does not know.
-TEST(TetPackets, MeasureANeedleThatTheRayRunsThrough) {
+void expect_needle_measured(double width) {
+  SCOPED_TRACE(width);
   Mesh mesh = generate("box-tetrahedra", {1, 0, 1});
   std::vector<double> points;
   for (std::size_t p = 0; p < mesh.point_count(); ++p)
     for (std::size_t a = 0; a < 3; ++a)
-      points.push_back((mesh.points.at<double>(3 * p + a) - 0.5) * (a == 2 ? 1 : 1e-14));
+      points.push_back((mesh.points.at<double>(3 * p + a) - 0.5) * (a == 2 ? 1 : width));
   mesh.points = Array::own(std::move(points));
   const WalkableTets tets =
       make_walkable_tets(mesh, select_field(mesh), check_structure(mesh), false);
   const BoundaryIndex<TetWalker> boundary(tets);
   ShearedFrame frame;
-  ASSERT_TRUE(frame.set({{1e-15, -2e-15, -3}, {0, 0, 1}}, tets.frame));
+  ASSERT_TRUE(frame.set({{0.1 * width, -0.2 * width, -3}, {0, 0, 1}}, tets.frame));
   TetWalker walker(tets, frame);
   const auto entry = Entries<TetWalker>().first(boundary, walker, frame);
   ASSERT_TRUE(entry);
-  walker.enter(tets.boundary[entry->boundary], entry->rank);
   const InstructionSets sets;
   for (const std::int64_t target : sets.each) {
     limit_packet_instruction_sets(target);
     SCOPED_TRACE(packet_instruction_set());
-    Starts feeder({walker.packet_start(entry->place, 0)});
+    Starts feeder({make_start(tets, frame, tets.boundary[entry->boundary], entry->place, 0)});
     Segments found(1);
     walk_segments(tets, frame.axis(), feeder, found);
     double sum = 0;
     for (const PacketSegment& s : found.of_ray[0]) sum += s.length;
     EXPECT_NEAR(sum, 1, 4e-6);
   }
+}
+
+TEST(TetPackets, MeasureANeedleThatTheRayRunsThrough) {
+  for (const double width : {1e-8, 1e-14, 1e-16, 1e-18}) expect_needle_measured(width);
 }
 
 }  // namespace

@@ -113,9 +113,8 @@ void expect_packets(const WalkableTets& mesh, const ShearedFrame& frame,
     SCOPED_TRACE(packet_instruction_set());
     Starts feeder;
     for (const WalkableTets::Boundary& face : faces_of_the_cell()) {
-      TetWalker walker(mesh, frame);
-      walker.enter(face, 0);
-      feeder.starts.push_back(walker.packet_start(walker.measure_boundary(face, 1), face.apex));
+      const Crossing place = TetWalker(mesh, frame).measure_boundary(face, 1);
+      feeder.starts.push_back(make_start(mesh, frame, face, place, face.apex));
     }
     Cells cells;
     walk_segments(mesh, frame.axis(), feeder, cells);
