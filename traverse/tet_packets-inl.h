@@ -59,6 +59,7 @@ struct PacketState {
   std::uint32_t turn = 0;
   unsigned live = 0;   // lanes that have a ray
   unsigned ended = 0;  // those whose ray has ended
+  bool refilled = false;
 };
 
 // x * y - z * w without the cancellation that single precision would suffer: the error is below two
@@ -330,17 +331,24 @@ class PacketWalk {
   void run(std::index_sequence<kPlace...>) {
     Packet<Consumer::kMeasure> packets[kPackets];
     (packets[kPlace].Load(states_[kPlace]), ...);
-    while (rays_ > 0) (turn(kPlace, packets[kPlace]), ...);
+    while (rays_ > 0) (turn(kPlace, packets[kPlace], packets[(kPlace + 1) % kPackets]), ...);
   }
 
-  HWY_INLINE void turn(std::size_t place, Packet<Consumer::kMeasure>& packet) {
+  HWY_INLINE void turn(std::size_t place, Packet<Consumer::kMeasure>& packet,
+                       Packet<Consumer::kMeasure>& next) {
     const DF d;
     const DU du;
     PacketState& state = states_[place];
-    if (HWY_UNLIKELY(state.ended != 0)) {
-      packet.Store(state);
-      refill(place);
+    // The next packet's lanes are refilled one turn ahead: what is written lane by lane and read
+    // as a whole at once has to wait.
+    const std::size_t next_place = (place + 1) % kPackets;
+    if (HWY_UNLIKELY(states_[next_place].ended != 0)) {
+      next.Store(states_[next_place]);
+      refill(next_place);
+    }
+    if (HWY_UNLIKELY(state.refilled)) {
       packet.Load(state);
+      state.refilled = false;
     }
     ++state.turn;
     const VU cells = hn::ShiftRight<2>(hn::Load(du, state.cells_by_4));
@@ -361,6 +369,7 @@ class PacketWalk {
 
   HWY_NOINLINE void refill(std::size_t place) {
     PacketState& state = states_[place];
+    state.refilled = true;
     for (unsigned ended = std::exchange(state.ended, 0u); ended != 0; ended &= ended - 1) {
       const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(ended);
       --rays_;

@@ -9,7 +9,7 @@ HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-constexpr std::size_t kPackets = 2;
+constexpr std::size_t kPackets = 3;
 
 // Counts steps, and nothing else.
 struct CountConsumer {
@@ -26,6 +26,78 @@ struct CountConsumer {
 void CountCells(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
                 std::span<std::uint32_t> counts) {
   CountConsumer consumer{counts};
+  WalkAlong<kPackets>(mesh, axis, consumer, feeder);
+}
+
+struct IntegralConsumer {
+  static constexpr bool kMeasure = true;
+
+  std::span<PacketIntegral> sums;
+  HWY_ALIGN float lengths[kPackets][kMaxLanes] = {};
+  HWY_ALIGN float integrals[kPackets][kMaxLanes] = {};
+
+  void begin(std::size_t packet, std::size_t lane, const PacketStart&) {
+    lengths[packet][lane] = integrals[packet][lane] = 0;
+  }
+  HWY_INLINE MF visit(std::size_t packet, MF /*active*/, VF length, VF s_in, VF s_out, VU) {
+    const DF d;
+    const VF half = hn::Mul(length, hn::Set(d, 0.5f));
+    hn::Store(hn::Add(hn::Load(d, lengths[packet]), length), d, lengths[packet]);
+    hn::Store(hn::MulAdd(half, hn::Add(s_in, s_out), hn::Load(d, integrals[packet])), d,
+              integrals[packet]);
+    return hn::MaskFromVec(hn::Zero(d));
+  }
+  void end(std::size_t packet, std::size_t lane, const PacketStart& start, float,
+           std::uint32_t cells) {
+    PacketIntegral& sum = sums[start.ray];
+    sum.length += lengths[packet][lane];
+    sum.integral += integrals[packet][lane];
+    sum.cells += cells;
+  }
+};
+
+void IntegrateScalar(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
+                     std::span<PacketIntegral> sums) {
+  IntegralConsumer consumer{sums};
+  WalkAlong<kPackets>(mesh, axis, consumer, feeder);
+}
+
+struct IsosurfaceConsumer {
+  static constexpr bool kMeasure = true;
+
+  const float isovalue;
+  std::span<PacketHit> hits;
+  HWY_ALIGN float travelled[kPackets][kMaxLanes] = {};
+  HWY_ALIGN float distances[kPackets][kMaxLanes] = {};
+
+  void begin(std::size_t packet, std::size_t lane, const PacketStart&) {
+    travelled[packet][lane] = 0;
+    distances[packet][lane] = std::numeric_limits<float>::infinity();
+  }
+  HWY_INLINE MF visit(std::size_t packet, MF active, VF length, VF s_in, VF s_out, VU) {
+    const DF d;
+    const VF value = hn::Set(d, isovalue);
+    const VF front = hn::Sub(s_in, value), back = hn::Sub(s_out, value);
+    const VF way = hn::Load(d, travelled[packet]);
+    const MF hit = hn::And(active, MaskOfBits(hn::Xor(front, back)));
+    if (HWY_UNLIKELY(!hn::AllFalse(d, hit))) {
+      const VF share = hn::Div(front, hn::Sub(front, back));
+      const VF place = hn::MulAdd(length, share, way);
+      hn::Store(hn::IfThenElse(hit, place, hn::Load(d, distances[packet])), d, distances[packet]);
+    }
+    hn::Store(hn::Add(way, length), d, travelled[packet]);
+    return hit;
+  }
+  void end(std::size_t packet, std::size_t lane, const PacketStart& start, float,
+           std::uint32_t cells) {
+    hits[start.ray].distance = distances[packet][lane];
+    hits[start.ray].cells += cells;
+  }
+};
+
+void FindIsosurface(const WalkableTets& mesh, int axis, float isovalue, PacketFeeder& feeder,
+                    std::span<PacketHit> hits) {
+  IsosurfaceConsumer consumer{isovalue, hits};
   WalkAlong<kPackets>(mesh, axis, consumer, feeder);
 }
 
@@ -71,12 +143,24 @@ HWY_AFTER_NAMESPACE();
 namespace plume {
 
 HWY_EXPORT(CountCells);
+HWY_EXPORT(IntegrateScalar);
+HWY_EXPORT(FindIsosurface);
 HWY_EXPORT(WalkSegments);
 HWY_EXPORT(InstructionSet);
 
 void count_cells(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
                  std::span<std::uint32_t> counts) {
   HWY_DYNAMIC_DISPATCH(CountCells)(mesh, axis, feeder, counts);
+}
+
+void integrate_scalar(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
+                      std::span<PacketIntegral> sums) {
+  HWY_DYNAMIC_DISPATCH(IntegrateScalar)(mesh, axis, feeder, sums);
+}
+
+void find_isosurface(const WalkableTets& mesh, int axis, float isovalue, PacketFeeder& feeder,
+                     std::span<PacketHit> hits) {
+  HWY_DYNAMIC_DISPATCH(FindIsosurface)(mesh, axis, isovalue, feeder, hits);
 }
 
 void walk_segments(const WalkableTets& mesh, int axis, PacketFeeder& feeder,

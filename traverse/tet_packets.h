@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 
 #include "plume/mesh/walkable_tets.h"
@@ -14,6 +15,32 @@ namespace plume {
 /// TetWalker, bit for bit, with any instruction set.
 void count_cells(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
                  std::span<std::uint32_t> counts);
+
+/// The line integral of the scalar along the passages of a ray.
+struct PacketIntegral {
+  float length = 0;    ///< of the passages, in world units
+  float integral = 0;  ///< of the scalar over that length
+  std::uint32_t cells = 0;
+};
+
+/// Walks all rays of `feeder` and adds, by PacketStart::ray, what they meet to what is there. The
+/// scalar is that of the points. Sums are in single precision: after n cells their error is n units
+/// in the last place at the most, and about the square root of that.
+void integrate_scalar(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
+                      std::span<PacketIntegral> sums);
+
+/// Where a ray first meets an isosurface.
+struct PacketHit {
+  /// In world units from where the last of its passages came in; infinite where there is none.
+  float distance = std::numeric_limits<float>::infinity();
+  std::uint32_t cells = 0;
+};
+
+/// Walks the rays of `feeder` to the first place where the points' scalar passes through
+/// `isovalue`; a value equal to it counts as above. Cells are added to what is there. A ray that
+/// was not hit may come back with its next passage.
+void find_isosurface(const WalkableTets& mesh, int axis, float isovalue, PacketFeeder& feeder,
+                     std::span<PacketHit> hits);
 
 /// Segments of packets, for tests: what every lane met, in the order in which it did.
 struct PacketSegment {

@@ -9,7 +9,9 @@ namespace plume::bench {
 Agreement compare(const BenchMesh& mesh, Mode mode, std::span<const PassageSum> reference,
                   std::span<const PassageSum> sums) {
   float first = 2e-3f, second = 2e-3f;
-  if (mode != Mode::volume) {
+  if (mode == Mode::closed_form) {
+    first = second = 1e-4f;
+  } else if (mode != Mode::volume) {
     first = static_cast<float>(1e-4 * mesh.bounds.diagonal());
     second = first * mesh.scalar_size;
   }

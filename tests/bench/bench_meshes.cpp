@@ -97,9 +97,9 @@ BenchMesh make_bench_mesh(const Mesh& mesh, CellOrder order) {
   made.tets = make_walkable_tets(mesh, field, made.bounds, false);
   made.plucker = make_plucker_mesh(mesh, find_tet_adjacency(mesh, field, made.bounds));
   if (order == CellOrder::random) shuffle_cells(made.tets, made.plucker);
-  made.optics.isovalue = 0.5f * (percentile(field.values, 0.01) + percentile(field.values, 0.99));
-  made.optics.table =
-      OpticsTable::ramp(field.low, field.high, static_cast<float>(8 / made.bounds.diagonal()));
+  const float isovalue = 0.5f * (percentile(field.values, 0.01) + percentile(field.values, 0.99));
+  made.optics =
+      BenchOptics(isovalue, field.low, field.high, static_cast<float>(8 / made.bounds.diagonal()));
   return made;
 }
 

@@ -21,7 +21,7 @@ struct BenchMesh {
   float scalar_size = 0;
   WalkableTets tets;
   PluckerMesh plucker;
-  Optics optics;
+  BenchOptics optics;
 };
 
 enum class CellOrder {

@@ -63,6 +63,8 @@ std::size_t tets_bytes(const BenchMesh& mesh) {
 }
 
 const std::vector<Mode> kAllModes(kModes.begin(), kModes.end());
+const std::vector<Mode> kPacketModes{Mode::cells, Mode::integral, Mode::isosurface,
+                                     Mode::closed_form};
 
 }  // namespace
 
@@ -71,13 +73,20 @@ bool BenchWalker::has(Mode mode) const {
 }
 
 const std::vector<BenchWalker>& walkers() {
-  static const std::vector<BenchWalker> all{
-      {"plucker", walk_plucker_passages<PluckerProducts::thesis>, kAllModes, false, plucker_bytes},
-      {"tet-walker", walk_tets, kAllModes, true, tets_bytes},
-      {"plucker-fast", walk_plucker_passages<PluckerProducts::relative>, kAllModes, false,
-       plucker_bytes},
-      {"tet-packets", walk_packet_passages, {Mode::cells}, true, tets_bytes},
-  };
+  static const std::vector<BenchWalker> all = [] {
+    std::vector<BenchWalker> walkers{
+        {"plucker", walk_plucker_passages<PluckerProducts::thesis>, kAllModes, false,
+         plucker_bytes},
+        {"tet-walker", walk_tets, kAllModes, true, tets_bytes},
+        {"plucker-fast", walk_plucker_passages<PluckerProducts::relative>, kAllModes, false,
+         plucker_bytes},
+        {"tet-packets", walk_packet_passages, kPacketModes, true, tets_bytes},
+    };
+    if (packets_have_more_than_avx2())
+      walkers.push_back(
+          {"packets-avx2", walk_packet_passages_avx2, kPacketModes, true, tets_bytes});
+    return walkers;
+  }();
   return all;
 }
 

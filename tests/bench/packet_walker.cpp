@@ -5,6 +5,8 @@
 #include <cmath>
 #include <vector>
 
+#include "hwy/targets.h"
+#include "plume/lib/volume_packets.h"
 #include "plume/traverse/tet_packets.h"
 
 namespace plume::bench {
@@ -52,16 +54,59 @@ std::array<std::vector<std::uint32_t>, 3> by_axis(const BenchView& view) {
 
 }  // namespace
 
-void walk_packet_passages(const BenchMesh& mesh, const BenchView& view, [[maybe_unused]] Mode mode,
+void walk_packet_passages(const BenchMesh& mesh, const BenchView& view, Mode mode,
                           std::span<PassageSum> sums) {
-  assert(mode == Mode::cells);
-  std::vector<std::uint32_t> counts(sums.size(), 0);
   const auto passages = by_axis(view);
-  for (int axis = 0; axis < 3; ++axis) {
-    PassageFeeder feeder(mesh, view, passages[static_cast<std::size_t>(axis)]);
-    count_cells(mesh.tets, axis, feeder, counts);
+  // walk(axis, feeder) for the rays of each axis.
+  auto for_each_axis = [&](auto&& walk) {
+    for (int axis = 0; axis < 3; ++axis) {
+      PassageFeeder feeder(mesh, view, passages[static_cast<std::size_t>(axis)]);
+      walk(axis, feeder);
+    }
+  };
+  if (mode == Mode::cells) {
+    std::vector<std::uint32_t> counts(sums.size(), 0);
+    for_each_axis(
+        [&](int axis, PassageFeeder& feeder) { count_cells(mesh.tets, axis, feeder, counts); });
+    for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = {counts[i], 0, 0};
+  } else if (mode == Mode::integral) {
+    std::vector<PacketIntegral> integrals(sums.size());
+    for_each_axis([&](int axis, PassageFeeder& feeder) {
+      integrate_scalar(mesh.tets, axis, feeder, integrals);
+    });
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      sums[i] = {integrals[i].cells, integrals[i].length, integrals[i].integral};
+  } else if (mode == Mode::isosurface) {
+    std::vector<PacketHit> hits(sums.size());
+    for_each_axis([&](int axis, PassageFeeder& feeder) {
+      find_isosurface(mesh.tets, axis, mesh.optics.isovalue, feeder, hits);
+    });
+    for (std::size_t i = 0; i < sums.size(); ++i) {
+      sums[i] = {hits[i].cells, 0, 0};
+      if (!std::isfinite(hits[i].distance)) continue;
+      const Passage& passage = view.passages[i];
+      ShearedFrame frame;
+      frame.set(view.rays[passage.ray], mesh.tets.frame);
+      sums[i].first = static_cast<float>(frame.t(passage.entry.place.z)) + hits[i].distance;
+    }
+  } else {
+    assert(mode == Mode::closed_form);
+    std::vector<PacketColor> colors(sums.size());
+    for_each_axis([&](int axis, PassageFeeder& feeder) {
+      composite_packets(mesh.tets, mesh.optics.pieces, axis, 0, feeder, colors);
+    });
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      sums[i] = {colors[i].cells, colors[i].transmittance, colors[i].r + colors[i].g + colors[i].b};
   }
-  for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = {counts[i], 0, 0};
 }
+
+void walk_packet_passages_avx2(const BenchMesh& mesh, const BenchView& view, Mode mode,
+                               std::span<PassageSum> sums) {
+  limit_packet_instruction_sets(HWY_AVX2);
+  walk_packet_passages(mesh, view, mode, sums);
+  limit_packet_instruction_sets(0);
+}
+
+bool packets_have_more_than_avx2() { return (hwy::SupportedTargets() & HWY_AVX3) != 0; }
 
 }  // namespace plume::bench

@@ -10,8 +10,15 @@
 namespace plume::bench {
 
 /// Walks a view's passages by packets (traverse/tet_packets.h), with the widest instructions that
-/// are allowed. Mode::cells alone: the other modes' optics are those of the scalar walkers.
+/// are allowed. Not Mode::volume, whose optics are the scalar walkers'.
 void walk_packet_passages(const BenchMesh& mesh, const BenchView& view, Mode mode,
                           std::span<PassageSum> sums);
+
+/// The same with AVX2's instructions.
+void walk_packet_passages_avx2(const BenchMesh& mesh, const BenchView& view, Mode mode,
+                               std::span<PassageSum> sums);
+
+/// Whether the processor has wider ones.
+bool packets_have_more_than_avx2();
 
 }  // namespace plume::bench

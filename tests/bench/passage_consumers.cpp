@@ -3,7 +3,7 @@
 namespace plume::bench {
 
 const char* mode_name(Mode mode) {
-  constexpr const char* kNames[] = {"cells", "integral", "isosurface", "volume"};
+  constexpr const char* kNames[] = {"cells", "integral", "isosurface", "volume", "closed-form"};
   return kNames[static_cast<std::size_t>(mode)];
 }
 
@@ -19,6 +19,18 @@ OpticsTable OpticsTable::ramp(float low, float high, float extinction) {
         {std::max(white, x), white, std::max(white, 1 - x), extinction * x * x});
   }
   return table;
+}
+
+TransferFunction ramp_of_knots(float low, float high, float extinction) {
+  TransferFunction ramp;
+  for (int i = 0; i < 8; ++i) {
+    const float x = static_cast<float>(i) / 7;
+    const float white = 1 - std::abs(2 * x - 1);
+    ramp.knots.push_back(
+        {low + x * (high - low),
+         {extinction * x * x, {std::max(white, x), white, std::max(white, 1 - x)}}});
+  }
+  return ramp;
 }
 
 }  // namespace plume::bench

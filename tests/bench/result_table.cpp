@@ -36,17 +36,19 @@ std::string with_commas(std::size_t number) {
 std::string result_table(const std::vector<TetResult>& results) {
   std::string text =
       "\nTetrahedra, one thread, first hits not included; medians, mean of four views\n\n";
-  text += fmt::format("{:<21}{:>12}  {:<11}{:<13}{:>10}{:>9}{:>11}{:>11}\n", "mesh", "cells",
-                      "mode", "walker", "M cells/s", "ns/cell", "bytes/cell", "x Plücker");
+  text +=
+      fmt::format("{:<21}{:>12}  {:<13}{:<13}{:>10}{:>9}{:>11}{:>11}{:>9}\n", "mesh", "cells",
+                  "mode", "walker", "M cells/s", "ns/cell", "bytes/cell", "x Plücker", "x walk");
   const TetResult* previous = nullptr;
   for (const TetResult& r : results) {
     const bool new_mesh = !previous || previous->mesh != r.mesh;
     const bool new_mode = new_mesh || previous->mode != r.mode;
     if (new_mesh && previous) text += "\n";
-    text += fmt::format("{:<21}{:>12}  {:<11}{:<13}{:>10.1f}{:>9.2f}{:>11.1f}{:>10.2f}\n",
-                        new_mesh ? r.mesh : "", new_mesh ? with_commas(r.mesh_cells) : "",
-                        new_mode ? mode_name(r.mode) : "", r.walker, r.million_cells_per_second,
-                        1e3 / r.million_cells_per_second, r.bytes_per_cell, r.ratio);
+    text +=
+        fmt::format("{:<21}{:>12}  {:<13}{:<13}{:>10.1f}{:>9.2f}{:>11.1f}{:>10.2f}{:>9.2f}\n",
+                    new_mesh ? r.mesh : "", new_mesh ? with_commas(r.mesh_cells) : "",
+                    new_mode ? mode_name(r.mode) : "", r.walker, r.million_cells_per_second,
+                    1e3 / r.million_cells_per_second, r.bytes_per_cell, r.ratio, r.ratio_to_walk);
     previous = &r;
   }
   return text + kThesis;

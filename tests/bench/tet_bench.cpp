@@ -46,8 +46,7 @@ class Bench {
   void run(benchmark::State& state, Mode mode, const BenchWalker& walker) {
     if (!mesh_) return state.SkipWithError("skipped for lack of data");
     if (!wrong_.empty()) return fail(state, wrong_);
-    auto& times = times_[mode];
-    if (times.empty()) times = measure(*mesh_, views_, mode, rounds_);
+    const auto& times = times_of(mode);
     const auto of = [&times](const BenchWalker& wanted) -> const WalkerTimes& {
       for (const WalkerTimes& one : times)
         if (one.walker == &wanted) return one;
@@ -60,8 +59,10 @@ class Bench {
       (void)unused;
       state.SetIterationTime(own.rounds[round++ % own.rounds.size()]);
     }
-    TetResult result{source_.name, walker.name, mode, mesh_->tets.cell_count(), 0, 0, 0};
+    TetResult result{source_.name, walker.name, mode, mesh_->tets.cell_count(), 0, 0, 0, 0};
     result.million_cells_per_second = own.million_cells_per_second();
+    result.ratio_to_walk =
+        own.million_cells_per_second() / times_of(Mode::cells).front().million_cells_per_second();
     result.bytes_per_cell =
         static_cast<double>(walker.bytes(*mesh_)) / static_cast<double>(result.mesh_cells);
     result.ratio = own.million_cells_per_second() / of(baseline()).million_cells_per_second();
@@ -70,10 +71,17 @@ class Bench {
     state.counters["ns/cell"] = 1e3 / result.million_cells_per_second;
     state.counters["bytes/cell"] = result.bytes_per_cell;
     state.counters["x_plucker"] = result.ratio;
+    state.counters["x_walk"] = result.ratio_to_walk;
     state.counters["plucker_lost"] = static_cast<double>(lost_);
   }
 
  private:
+  const std::vector<WalkerTimes>& times_of(Mode mode) {
+    auto& times = times_[mode];
+    if (times.empty()) times = measure(*mesh_, views_, mode, rounds_);
+    return times;
+  }
+
   static void fail(benchmark::State& state, const std::string& what) {
     failed = true;
     std::fprintf(stderr, "plume_bench: %s\n", what.c_str());

@@ -22,6 +22,8 @@ struct TetResult {
   double bytes_per_cell = 0;
   /// How many times as fast as the Plücker baseline in the same run.
   double ratio = 0;
+  /// How many times as fast as the baseline's walk alone (Mode::cells).
+  double ratio_to_walk = 0;
 };
 
 /// Registers tetrahedra/<mesh>/<mode>/<walker> with Google Benchmark, for each mesh, mode and
