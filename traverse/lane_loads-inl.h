@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 
 #include "hwy/highway.h"
 #include "plume/mesh/walkable_tets.h"
@@ -69,19 +70,39 @@ HWY_INLINE FourFloats LoadFour(const float* HWY_RESTRICT base, const std::uint32
 
 #else
 
-// What lanes 0, 4, 8, ... (counted from `pairs`) load, side by side.
 #if HWY_TARGET <= HWY_AVX3
-HWY_INLINE VF LoadEveryFourth(DF, const float* HWY_RESTRICT base, const std::uint32_t* pairs) {
-  auto load = [&](std::size_t lane) {
-    return _mm_loadu_ps(base + 2 * static_cast<std::size_t>(pairs[lane]));
-  };
-  // Each load blends itself in: no instruction of its own, and no shuffle.
-  __m512 rows = _mm512_castps128_ps512(load(0));
-  rows = _mm512_mask_broadcast_f32x4(rows, 0x00F0, load(4));
-  rows = _mm512_mask_broadcast_f32x4(rows, 0x0F00, load(8));
-  return VF{_mm512_mask_broadcast_f32x4(rows, 0xF000, load(12))};
+
+// Two numbers that lie together, by one load: loads are what a step has most of.
+struct TwoNumbers {
+  std::size_t first, second;
+};
+HWY_INLINE TwoNumbers LoadTwo(const std::uint32_t* numbers) {
+  std::uint64_t both;
+  std::memcpy(&both, numbers, sizeof(both));
+  return {static_cast<std::uint32_t>(both), both >> 32};
 }
+
+// Rows 0 and 1 of the transposition, or 2 and 3: what lanes 0, 4, 8 and 12 (counted from `pairs`)
+// load, and what those after them do. Each load blends itself in: no instruction of its own.
+struct TwoRows {
+  VF first, second;
+};
+HWY_INLINE TwoRows LoadTwoRows(const float* HWY_RESTRICT base, const std::uint32_t* pairs) {
+  const TwoNumbers n0 = LoadTwo(pairs), n1 = LoadTwo(pairs + 4);
+  const TwoNumbers n2 = LoadTwo(pairs + 8), n3 = LoadTwo(pairs + 12);
+  auto row = [&](std::size_t TwoNumbers::*of) {
+    auto load = [&](const TwoNumbers& n) { return _mm_loadu_ps(base + 2 * (n.*of)); };
+    __m512 lanes = _mm512_castps128_ps512(load(n0));
+    lanes = _mm512_mask_broadcast_f32x4(lanes, 0x00F0, load(n1));
+    lanes = _mm512_mask_broadcast_f32x4(lanes, 0x0F00, load(n2));
+    return VF{_mm512_mask_broadcast_f32x4(lanes, 0xF000, load(n3))};
+  };
+  return {row(&TwoNumbers::first), row(&TwoNumbers::second)};
+}
+
 #else
+
+// What lanes 0, 4, 8, ... (counted from `pairs`) load, side by side.
 template <class D>
 HWY_INLINE hn::Vec<D> LoadEveryFourth(D d, const float* HWY_RESTRICT base,
                                       const std::uint32_t* pairs) {
@@ -93,6 +114,13 @@ HWY_INLINE hn::Vec<D> LoadEveryFourth(D d, const float* HWY_RESTRICT base,
                        LoadEveryFourth(half, base, pairs));
   }
 }
+struct TwoRows {
+  VF first, second;
+};
+HWY_INLINE TwoRows LoadTwoRows(const float* HWY_RESTRICT base, const std::uint32_t* pairs) {
+  return {LoadEveryFourth(DF(), base, pairs), LoadEveryFourth(DF(), base, pairs + 1)};
+}
+
 #endif
 
 // The four floats at base + 2 * pairs[lane] (x86 scales an index by 8 bytes at the most, so that
@@ -101,10 +129,8 @@ HWY_INLINE hn::Vec<D> LoadEveryFourth(D d, const float* HWY_RESTRICT base,
 HWY_INLINE FourFloats LoadFour(const float* HWY_RESTRICT base, const std::uint32_t* pairs) {
   const DF d;
   const hn::Repartition<std::uint64_t, DF> d64;
-  const VF p0 = LoadEveryFourth(d, base, pairs);
-  const VF p1 = LoadEveryFourth(d, base, pairs + 1);
-  const VF p2 = LoadEveryFourth(d, base, pairs + 2);
-  const VF p3 = LoadEveryFourth(d, base, pairs + 3);
+  const auto [p0, p1] = LoadTwoRows(base, pairs);
+  const auto [p2, p3] = LoadTwoRows(base, pairs + 2);
   const auto ab01 = hn::BitCast(d64, hn::InterleaveLower(d, p0, p1));
   const auto ab23 = hn::BitCast(d64, hn::InterleaveLower(d, p2, p3));
   const auto cd01 = hn::BitCast(d64, hn::InterleaveUpper(d, p0, p1));
@@ -144,12 +170,14 @@ class LanesLinks {
                         const std::uint32_t* cells_by_4) {
     static_assert(sizeof(WalkableTets::Cell) == 32);
     const auto* const links = reinterpret_cast<const std::uint64_t*>(cells);
-    auto load = [&](std::size_t lane) {
-      return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(links + cells_by_4[lane]));
+    auto load = [&](std::size_t cell_by_4) {
+      return _mm256_loadu_si256(reinterpret_cast<const __m256i*>(links + cell_by_4));
     };
-    for (std::size_t i = 0; i < 8; ++i)
-      pairs_[i] =
-          _mm512_mask_broadcast_i64x4(_mm512_castsi256_si512(load(2 * i)), 0xF0, load(2 * i + 1));
+    for (std::size_t i = 0; i < 8; ++i) {
+      const TwoNumbers cell = LoadTwo(cells_by_4 + 2 * i);
+      pairs_[i] = _mm512_mask_broadcast_i64x4(_mm512_castsi256_si512(load(cell.first)), 0xF0,
+                                              load(cell.second));
+    }
   }
   HWY_INLINE Links pick(VU rank) const {
     // Two pairs of cells are a table of 16 links. (The forms with an all-true mask are the plain

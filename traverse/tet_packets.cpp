@@ -9,7 +9,7 @@ HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-constexpr std::size_t kPackets = 3;
+constexpr std::size_t kPackets = 4;
 
 // Counts steps, and nothing else.
 struct CountConsumer {
