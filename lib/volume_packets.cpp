@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-constexpr std::size_t kPackets = 2;
+constexpr std::size_t kPackets = 2, kMaxPackets = 8;
 
 // A table of any size, its pieces fetched like the points.
 class FetchedTable {
@@ -40,6 +40,7 @@ class FetchedTable {
 template <class Pieces>
 struct VolumeConsumer {
   static constexpr bool kMeasure = true;
+  static constexpr std::size_t kMaxPackets = HWY_NAMESPACE::kMaxPackets;
 
   const PieceTable& table;
   const Pieces& pieces;
@@ -53,7 +54,7 @@ struct VolumeConsumer {
     HWY_ALIGN float transmittance[kMaxLanes];
     HWY_ALIGN std::uint32_t piece[kMaxLanes];
   };
-  Lanes lanes[kPackets] = {};
+  Lanes lanes[kMaxPackets] = {};
 
   void begin(std::size_t packet, std::size_t lane, const PacketStart& start) {
     Lanes& mine = lanes[packet];

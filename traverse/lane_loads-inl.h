@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "hwy/cache_control.h"
 #include "hwy/highway.h"
 #include "plume/mesh/walkable_tets.h"
 
@@ -239,6 +240,12 @@ class LanesLinks {
 };
 
 #endif
+
+// Asks for what lies at base + 2 * pairs[lane].
+HWY_INLINE void Prefetch(const float* base, const std::uint32_t* pairs) {
+  for (std::size_t lane = 0; lane < hn::Lanes(DF()); ++lane)
+    hwy::Prefetch(base + 2 * static_cast<std::size_t>(pairs[lane]));
+}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace plume

@@ -310,7 +310,10 @@ HWY_INLINE unsigned BitsOf(MF mask) {
 //     returned have seen enough. Lengths are in world units and >= 0 (see trace.h);
 //     end(packet, lane, start, z, cells): z is where the ray was last, cells how many it met.
 // Without Consumer::kMeasure there is no visit(), and z means nothing.
-template <int kAxis, std::size_t kPackets, class Consumer>
+//
+// With kPrefetch, what a packet needs next is asked for as soon as it is known: that costs as many
+// instructions as the loads themselves, and pays where they go beyond the caches.
+template <int kAxis, std::size_t kPackets, bool kPrefetch, class Consumer>
 class PacketWalk {
  public:
   PacketWalk(const WalkableTets& mesh, Consumer& consumer, PacketFeeder& feeder)
@@ -353,6 +356,10 @@ class PacketWalk {
     ++state.turn;
     const VU cells = hn::ShiftRight<2>(hn::Load(du, state.cells_by_4));
     const StepResult step = Step<kAxis, Consumer::kMeasure>(cells_, points_, state, packet);
+    if constexpr (kPrefetch) {
+      Prefetch(reinterpret_cast<const float*>(cells_), state.cells_by_4);
+      Prefetch(points_, state.apex_by_2);
+    }
     MF ended = step.left;
     if constexpr (Consumer::kMeasure) {
       // Where cells overlap a ray would have to go back; it waits instead.
@@ -397,16 +404,24 @@ class PacketWalk {
   std::size_t rays_ = 0;
 };
 
-// The same, with the axis known when it runs.
+// The same, with the axis known when it runs, and more packets with prefetching on meshes that are
+// larger than the caches.
 template <std::size_t kPackets, class Consumer>
 void WalkAlong(const WalkableTets& mesh, int axis, Consumer& consumer, PacketFeeder& feeder) {
+  constexpr std::size_t kLargeMesh = 500000;  // cells
+  auto walk = [&]<int kAxis>() {
+    if (mesh.cells.size() < kLargeMesh)
+      PacketWalk<kAxis, kPackets, false, Consumer>(mesh, consumer, feeder).run();
+    else
+      PacketWalk<kAxis, Consumer::kMaxPackets, true, Consumer>(mesh, consumer, feeder).run();
+  };
   switch (axis) {
     case 0:
-      return PacketWalk<0, kPackets, Consumer>(mesh, consumer, feeder).run();
+      return walk.template operator()<0>();
     case 1:
-      return PacketWalk<1, kPackets, Consumer>(mesh, consumer, feeder).run();
+      return walk.template operator()<1>();
     default:
-      return PacketWalk<2, kPackets, Consumer>(mesh, consumer, feeder).run();
+      return walk.template operator()<2>();
   }
 }
 

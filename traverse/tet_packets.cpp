@@ -9,11 +9,12 @@ HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-constexpr std::size_t kPackets = 4;
+constexpr std::size_t kPackets = 4, kMaxPackets = 8;
 
 // Counts steps, and nothing else.
 struct CountConsumer {
   static constexpr bool kMeasure = false;
+  static constexpr std::size_t kMaxPackets = HWY_NAMESPACE::kMaxPackets;
 
   std::span<std::uint32_t> counts;
 
@@ -31,10 +32,11 @@ void CountCells(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
 
 struct IntegralConsumer {
   static constexpr bool kMeasure = true;
+  static constexpr std::size_t kMaxPackets = HWY_NAMESPACE::kMaxPackets;
 
   std::span<PacketIntegral> sums;
-  HWY_ALIGN float lengths[kPackets][kMaxLanes] = {};
-  HWY_ALIGN float integrals[kPackets][kMaxLanes] = {};
+  HWY_ALIGN float lengths[kMaxPackets][kMaxLanes] = {};
+  HWY_ALIGN float integrals[kMaxPackets][kMaxLanes] = {};
 
   void begin(std::size_t packet, std::size_t lane, const PacketStart&) {
     lengths[packet][lane] = integrals[packet][lane] = 0;
@@ -64,11 +66,12 @@ void IntegrateScalar(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
 
 struct IsosurfaceConsumer {
   static constexpr bool kMeasure = true;
+  static constexpr std::size_t kMaxPackets = HWY_NAMESPACE::kMaxPackets;
 
   const float isovalue;
   std::span<PacketHit> hits;
-  HWY_ALIGN float travelled[kPackets][kMaxLanes] = {};
-  HWY_ALIGN float distances[kPackets][kMaxLanes] = {};
+  HWY_ALIGN float travelled[kMaxPackets][kMaxLanes] = {};
+  HWY_ALIGN float distances[kMaxPackets][kMaxLanes] = {};
 
   void begin(std::size_t packet, std::size_t lane, const PacketStart&) {
     travelled[packet][lane] = 0;
@@ -103,9 +106,10 @@ void FindIsosurface(const WalkableTets& mesh, int axis, float isovalue, PacketFe
 
 struct SegmentConsumer {
   static constexpr bool kMeasure = true;
+  static constexpr std::size_t kMaxPackets = HWY_NAMESPACE::kMaxPackets;
 
   PacketSegmentSink& sink;
-  std::uint32_t rays[kPackets][kMaxLanes] = {};
+  std::uint32_t rays[kMaxPackets][kMaxLanes] = {};
 
   void begin(std::size_t packet, std::size_t lane, const PacketStart& start) {
     rays[packet][lane] = start.ray;
