@@ -25,7 +25,9 @@ double length(const Vector& a) { return std::hypot(a[0], a[1], a[2]); }
 // Zero stays zero.
 Vector normalized(const Vector& a) {
   const double l = length(a);
-  return l > 0 ? Vector{a[0] / l, a[1] / l, a[2] / l} : a;
+  if (!(l > 0)) return a;
+  const double scale = 1 / l;
+  return {a[0] * scale, a[1] * scale, a[2] * scale};
 }
 double radians(double degrees) { return degrees * std::numbers::pi / 180; }
 

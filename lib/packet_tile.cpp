@@ -22,7 +22,11 @@ bool PacketTile::prepare(std::size_t index, const std::optional<Entry>& entry, d
 }
 
 void PacketTile::add(const Ray& ray) {
-  TileRay& added = rays_.emplace_back();
+  if (size_ == rays_.size()) rays_.emplace_back();
+  TileRay& added = rays_[size_++];
+  added.entries = 0;
+  added.declined = added.waiting = false;
+  added.all_entries.list().clear();
   added.valid = added.frame.set(ray, mesh_.frame);
   added.t_min = ray.t_min;
 }
@@ -30,13 +34,14 @@ void PacketTile::add(const Ray& ray) {
 void PacketTile::find_first_entries() {
   frames_.clear();
   found_.clear();
-  for (TileRay& ray : rays_) {
+  for (std::size_t index = 0; index < size_; ++index) {
+    TileRay& ray = rays_[index];
     if (!ray.valid) continue;
     frames_.push_back(&ray.frame);
     found_.push_back(&ray.all_entries.list());
   }
   boundary_.first_entries(frames_, found_);
-  for (std::size_t index = 0; index < rays_.size(); ++index) {
+  for (std::size_t index = 0; index < size_; ++index) {
     TileRay& ray = rays_[index];
     const auto entry = ray.all_entries.first();
     if (!entry) continue;
@@ -63,7 +68,7 @@ class PacketTile::Feeder : public PacketFeeder {
           return &ray.start;
       }
     }
-    while (at_ < tile_.rays_.size()) {
+    while (at_ < tile_.size_) {
       TileRay& ray = tile_.rays_[at_++];
       if (!ray.waiting || ray.frame.axis() != axis_) continue;
       ray.waiting = false;
@@ -79,7 +84,7 @@ class PacketTile::Feeder : public PacketFeeder {
 };
 
 void PacketTile::composite() {
-  colors_.assign(rays_.size(), PacketColor{});
+  colors_.assign(size_, PacketColor{});
   find_first_entries();
   for (int axis = 0; axis < 3; ++axis) {
     Feeder feeder(*this, axis);

@@ -23,7 +23,7 @@ class PacketTile {
              const PieceTable& table, float early_termination)
       : mesh_(mesh), boundary_(boundary), table_(table), early_termination_(early_termination) {}
 
-  void clear() { rays_.clear(); }
+  void clear() { size_ = 0; }
   void add(const Ray& ray);
   void composite();
 
@@ -60,7 +60,8 @@ class PacketTile {
   const BoundaryIndex<TetWalker>& boundary_;
   const PieceTable& table_;
   const float early_termination_;
-  std::vector<TileRay> rays_;
+  std::vector<TileRay> rays_;  // the first size_ of them: what there is is used again as it is
+  std::size_t size_ = 0;
   std::vector<PacketColor> colors_;
   std::vector<const ShearedFrame*> frames_;
   std::vector<EntryList*> found_;

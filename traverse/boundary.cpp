@@ -213,7 +213,7 @@ void BoundaryIndex<Walker>::first_entries(std::span<const ShearedFrame* const> f
     for (std::size_t i = 0; i < size; ++i) {
       const ShearedFrame& frame = *frames[begin + i];
       walkers.emplace_back(*mesh_, frame);
-      *found[begin + i] = EntryList();
+      found[begin + i]->clear();
       rays[i] = {&walkers.back(), &frame, nullptr, found[begin + i]};
       valid[i] = -1;
       const auto start = frame.start();

@@ -29,6 +29,11 @@ struct EntryList {
   std::uint32_t size = 0;
   /// There may be more behind the last one.
   bool more = false;
+
+  void clear() {
+    size = 0;
+    more = false;
+  }
 };
 
 /// A bounding volume hierarchy (Embree's, in robust mode) over a mesh's boundary faces.

@@ -52,7 +52,8 @@ inline int longest_axis(const std::array<double, 3>& direction) {
 
 class ShearedFrame {
  public:
-  /// False where the direction is zero or not finite: such a ray meets nothing.
+  /// False where the direction is zero (or has no component above 1e-308) or not finite: such a ray
+  /// meets nothing.
   bool set(const Ray& ray, const LocalFrame& local) {
     const auto& d = ray.direction;
     const int major = longest_axis(d);
@@ -64,8 +65,10 @@ class ShearedFrame {
     for (const double v : {d[0], d[1], d[2], ray.origin[0], ray.origin[1], ray.origin[2]})
       if (!std::isfinite(v)) return false;
     sign_ = d[z_] > 0 ? 1 : -1;
-    slope_x_ = static_cast<float>(d[x_] / d[z_]);
-    slope_y_ = static_cast<float>(d[y_] / d[z_]);
+    const double per_z = 1 / d[z_];
+    if (!std::isfinite(per_z)) return false;
+    slope_x_ = static_cast<float>(d[x_] * per_z);
+    slope_y_ = static_cast<float>(d[y_] * per_z);
 
     // The ray's point nearest to the centre of the mesh stands for its origin, so that a camera
     // far away costs no precision.
@@ -78,7 +81,7 @@ class ShearedFrame {
       anchor[a] = ((ray.origin[a] - local.center[a]) + along * d[a]) * local.scale;
     offset_x_ = static_cast<float>(anchor[x_] - static_cast<double>(slope_x_) * anchor[z_]);
     offset_y_ = static_cast<float>(anchor[y_] - static_cast<double>(slope_y_) * anchor[z_]);
-    t_per_z_ = 1 / (local.scale * d[z_]);
+    t_per_z_ = per_z / local.scale;  // a power of two
     t_offset_ = along - anchor[z_] * t_per_z_;
     return true;
   }
