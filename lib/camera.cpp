@@ -148,7 +148,10 @@ Ray PixelRays::operator()(double x, double y) const {
     ray.direction = forward_;
   } else {
     ray.origin = camera_.position;
-    ray.direction = normalized(sum(sum(forward_, across, right_), upward, up_));
+    // At least as long as `forward_`, which is 1: squares neither underflow nor need care.
+    const Vector d = sum(sum(forward_, across, right_), upward, up_);
+    const double scale = 1 / std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+    ray.direction = {d[0] * scale, d[1] * scale, d[2] * scale};
   }
   return ray;
 }

@@ -8,6 +8,7 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <limits>
@@ -25,6 +26,21 @@ namespace plume {
 namespace {
 
 constexpr int kTile = 32;  // pixels along a tile's edge
+
+// A tile's pixels along a Z-curve: neighbours in the list, which share packets, are neighbours in
+// the picture, and meet the same cells.
+struct TilePixel {
+  int x, y;
+};
+constexpr std::array<TilePixel, kTile* kTile> kTileOrder = [] {
+  std::array<TilePixel, kTile * kTile> order{};
+  for (std::size_t place = 0; place < order.size(); ++place)
+    for (int bit = 0; bit < 5; ++bit) {
+      order[place].x |= static_cast<int>(place >> (2 * bit) & 1) << bit;
+      order[place].y |= static_cast<int>(place >> (2 * bit + 1) & 1) << bit;
+    }
+  return order;
+}();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 const std::vector<std::string> kChannels{"depth", "optical_depth", "cell_id", "cell_count"};
 
@@ -102,27 +118,31 @@ class Frame {
     const int end_x = std::min(tile_x + kTile, settings_.width);
     const int end_y = std::min(tile_y + kTile, settings_.height);
     packets.clear();
-    for (int y = tile_y; y < end_y; ++y)
-      for (int x = tile_x; x < end_x; ++x) packets.add(rays_(x + 0.5, y + 0.5));
+    auto for_each_pixel = [&](auto&& visit) {
+      for (const auto& [along, down] : kTileOrder) {
+        const int x = tile_x + along, y = tile_y + down;
+        if (x < end_x && y < end_y) visit(x, y);
+      }
+    };
+    for_each_pixel([&](int x, int y) { packets.add(rays_(x + 0.5, y + 0.5)); });
     packets.composite();
     std::size_t ray = 0;
-    for (int y = tile_y; y < end_y; ++y)
-      for (int x = tile_x; x < end_x; ++x) {
-        const std::size_t index =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(settings_.width) +
-            static_cast<std::size_t>(x);
-        const PacketTile::Result result = packets.result(ray++);
-        if (result.declined) {
-          counts.add(render_pixel(walkable, integrator, rays_(x + 0.5, y + 0.5), index));
-          continue;
-        }
-        counts.add(result.trace);
-        float* rgba = &image_.rgba[4 * index];
-        rgba[0] = result.color.r;
-        rgba[1] = result.color.g;
-        rgba[2] = result.color.b;
-        rgba[3] = 1 - result.color.transmittance;
+    for_each_pixel([&](int x, int y) {
+      const std::size_t index =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(settings_.width) +
+          static_cast<std::size_t>(x);
+      const PacketTile::Result result = packets.result(ray++);
+      if (result.declined) {
+        counts.add(render_pixel(walkable, integrator, rays_(x + 0.5, y + 0.5), index));
+        return;
       }
+      counts.add(result.trace);
+      float* rgba = &image_.rgba[4 * index];
+      rgba[0] = result.color.r;
+      rgba[1] = result.color.g;
+      rgba[2] = result.color.b;
+      rgba[3] = 1 - result.color.transmittance;
+    });
   }
 
   // Whether packets can render this frame: tetrahedra, volume, closed form, nothing besides.

@@ -13,7 +13,7 @@ HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-constexpr std::size_t kPackets = 2, kMaxPackets = 8;
+constexpr std::size_t kPackets = 4, kMaxPackets = 8;
 
 // A table of any size, its pieces fetched like the points.
 class FetchedTable {
