@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -56,11 +57,43 @@ struct Case {
   std::uint64_t rays;
 };
 
+// The other instantiations of the walk come to what its segments do.
+void expect_sums(const PacketIntegral& integral, const PacketHit& hit,
+                 const std::vector<PacketSegment>& segments, float isovalue) {
+  double length = 0, sum = 0;
+  for (const PacketSegment& s : segments) {
+    length += s.length;
+    sum += 0.5 * s.length * (static_cast<double>(s.s_in) + s.s_out);
+  }
+  const auto count = static_cast<std::uint32_t>(segments.size());
+  ASSERT_EQ(integral.cells, count);
+  // Half a unit in the last place of the sum (at most 4 for lengths, 16 for integrals) for each
+  // addition.
+  ASSERT_NEAR(integral.length, length, 2.4e-7 * (count + 1));
+  ASSERT_NEAR(integral.integral, sum, 1e-6 * (count + 1));
+
+  double way = 0;
+  std::uint32_t cells = 0;
+  for (const PacketSegment& s : segments) {
+    ++cells;
+    if ((s.s_in < isovalue) != (s.s_out < isovalue)) {
+      ASSERT_EQ(hit.cells, cells);
+      ASSERT_NEAR(hit.distance,
+                  way + s.length * (s.s_in - isovalue) / static_cast<double>(s.s_in - s.s_out),
+                  2.4e-7 * (count + 1));
+      return;
+    }
+    way += s.length;
+  }
+  ASSERT_EQ(hit.cells, count);
+  ASSERT_EQ(hit.distance, std::numeric_limits<float>::infinity());
+}
+
 void expect_twins(const Case& c) {
   SCOPED_TRACE(c.name);
   const Mesh mesh = generate("box-tetrahedra", {c.size, c.jitter, 5});
-  const WalkableTets tets =
-      make_walkable_tets(mesh, select_field(mesh), check_structure(mesh), false);
+  const ScalarField field = select_field(mesh);
+  const WalkableTets tets = make_walkable_tets(mesh, field, check_structure(mesh), false);
   const BoundaryIndex<TetWalker> boundary(tets);
   AdversarialRays make_ray(mesh, bounds_of(mesh.points), 31);
 
@@ -100,11 +133,18 @@ void expect_twins(const Case& c) {
     names.insert(packet_instruction_set());
     std::vector<std::uint32_t> counts(expected.size(), 0);
     Segments found(expected.size());
+    std::vector<PacketIntegral> integrals(expected.size());
+    std::vector<PacketHit> hits(expected.size());
+    const float isovalue = 0.5f * (field.low + field.high);
     for (int axis = 0; axis < 3; ++axis) {
       Starts feeder(starts[static_cast<std::size_t>(axis)]);
       count_cells(tets, axis, feeder, counts);
       feeder.rewind();
       walk_segments(tets, axis, feeder, found);
+      feeder.rewind();
+      integrate_scalar(tets, axis, feeder, integrals);
+      feeder.rewind();
+      find_isosurface(tets, axis, isovalue, feeder, hits);
     }
     for (std::size_t ray = 0; ray < expected.size(); ++ray) {
       const auto& mine = found.of_ray[ray];
@@ -121,6 +161,7 @@ void expect_twins(const Case& c) {
       // of the passage count. Where there are no fused products, slivers near the boundary may
       // lose more of it.
       ASSERT_NEAR(sum, twin_sum, 4e-6) << "ray " << ray;
+      expect_sums(integrals[ray], hits[ray], mine, isovalue);
     }
   }
   // At least the baseline and something wider; bits of sets that were not compiled fall back on
