@@ -71,8 +71,6 @@ HWY_INLINE FourFloats LoadFour(const float* HWY_RESTRICT base, const std::uint32
 
 #else
 
-#if HWY_TARGET <= HWY_AVX3
-
 // Two numbers that lie together, by one load: loads are what a step has most of.
 struct TwoNumbers {
   std::size_t first, second;
@@ -82,6 +80,8 @@ HWY_INLINE TwoNumbers LoadTwo(const std::uint32_t* numbers) {
   std::memcpy(&both, numbers, sizeof(both));
   return {static_cast<std::uint32_t>(both), both >> 32};
 }
+
+#if HWY_TARGET <= HWY_AVX3
 
 // Rows 0 and 1 of the transposition, or 2 and 3: what lanes 0, 4, 8 and 12 (counted from `pairs`)
 // load, and what those after them do. Each load blends itself in: no instruction of its own.
@@ -103,23 +103,29 @@ HWY_INLINE TwoRows LoadTwoRows(const float* HWY_RESTRICT base, const std::uint32
 
 #else
 
-// What lanes 0, 4, 8, ... (counted from `pairs`) load, side by side.
+// Blocks of four floats, side by side.
 template <class D>
-HWY_INLINE hn::Vec<D> LoadEveryFourth(D d, const float* HWY_RESTRICT base,
-                                      const std::uint32_t* pairs) {
+HWY_INLINE hn::Vec<D> LoadBlocks(D d, const float* HWY_RESTRICT base, const std::size_t* pairs) {
   if constexpr (hn::MaxLanes(D()) <= 4) {
-    return hn::LoadU(d, base + 2 * static_cast<std::size_t>(pairs[0]));
+    return hn::LoadU(d, base + 2 * pairs[0]);
   } else {
     const hn::Half<D> half;
-    return hn::Combine(d, LoadEveryFourth(half, base, pairs + hn::MaxLanes(half)),
-                       LoadEveryFourth(half, base, pairs));
+    return hn::Combine(d, LoadBlocks(half, base, pairs + hn::MaxLanes(half) / 4),
+                       LoadBlocks(half, base, pairs));
   }
 }
 struct TwoRows {
   VF first, second;
 };
 HWY_INLINE TwoRows LoadTwoRows(const float* HWY_RESTRICT base, const std::uint32_t* pairs) {
-  return {LoadEveryFourth(DF(), base, pairs), LoadEveryFourth(DF(), base, pairs + 1)};
+  constexpr std::size_t kBlocks = hn::MaxLanes(DF()) / 4;
+  std::size_t first[kBlocks], second[kBlocks];
+  for (std::size_t block = 0; block < kBlocks; ++block) {
+    const TwoNumbers two = LoadTwo(pairs + 4 * block);
+    first[block] = two.first;
+    second[block] = two.second;
+  }
+  return {LoadBlocks(DF(), base, first), LoadBlocks(DF(), base, second)};
 }
 
 #endif
@@ -207,8 +213,10 @@ class LanesLinks {
 template <class D>
 HWY_INLINE hn::Vec<D> LoadEach(D d, const std::uint64_t* HWY_RESTRICT links,
                                const std::uint32_t* HWY_RESTRICT numbers) {
-  if constexpr (hn::MaxLanes(D()) == 1) {
-    return hn::LoadU(d, links + numbers[0]);
+  if constexpr (hn::MaxLanes(D()) == 2) {
+    const TwoNumbers two = LoadTwo(numbers);
+    const hn::Half<D> half;
+    return hn::Combine(d, hn::LoadU(half, links + two.second), hn::LoadU(half, links + two.first));
   } else {
     const hn::Half<D> half;
     return hn::Combine(d, LoadEach(half, links, numbers + hn::MaxLanes(half)),
