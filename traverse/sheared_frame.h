@@ -62,8 +62,9 @@ class ShearedFrame {
     x_ = index((major + 1) % 3);
     y_ = index((major + 2) % 3);
     z_ = index(major);
-    for (const double v : {d[0], d[1], d[2], ray.origin[0], ray.origin[1], ray.origin[2]})
-      if (!std::isfinite(v)) return false;
+    // Zero times what is not finite is no number.
+    const auto& o = ray.origin;
+    if (!(0 * d[0] + 0 * d[1] + 0 * d[2] + 0 * o[0] + 0 * o[1] + 0 * o[2] == 0)) return false;
     sign_ = d[z_] > 0 ? 1 : -1;
     const double per_z = 1 / d[z_];
     if (!std::isfinite(per_z)) return false;
