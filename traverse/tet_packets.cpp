@@ -9,7 +9,9 @@ HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-constexpr std::size_t kPackets = 4, kMaxPackets = 8;
+// In turn, and on large meshes: there some 64 rays on their way served best (50 million cells,
+// AVX-512: 4 packets 5% ahead of 8; AVX2: 8 ahead of 4).
+constexpr std::size_t kPackets = 4, kMaxPackets = HWY_TARGET <= HWY_AVX3 ? 4 : 8;
 
 // Counts steps, and nothing else.
 struct CountConsumer {
