@@ -13,8 +13,6 @@ HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-constexpr std::size_t kPackets = 4, kMaxPackets = 8;
-
 // A table of any size, its pieces fetched like the points.
 class FetchedTable {
  public:
@@ -40,7 +38,6 @@ class FetchedTable {
 template <class Pieces>
 struct VolumeConsumer {
   static constexpr bool kMeasure = true;
-  static constexpr std::size_t kMaxPackets = HWY_NAMESPACE::kMaxPackets;
 
   const PieceTable& table;
   const Pieces& pieces;
@@ -105,7 +102,7 @@ void CompositePackets(const WalkableTets& mesh, const PieceTable& table, int axi
     VolumeConsumer<std::decay_t<decltype(pieces)>> consumer{
         table, pieces, mesh.cell_values.empty() ? nullptr : mesh.cell_values.data(),
         std::max(early_termination, 1e-9f), colors};
-    WalkAlong<kPackets>(mesh, axis, consumer, feeder);
+    WalkAlong(mesh, axis, consumer, feeder);
   };
 #if HWY_TARGET != HWY_SCALAR
   if (optics::SmallTable::fits(table)) return composite(optics::SmallTable(table));

@@ -9,15 +9,9 @@ HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-// In turn; and on large meshes, where they ask ahead, some 64 rays on their way. (AVX-512 on 50
-// million cells: 3.06 times the benchmarks' baseline with 4 packets, 2.90 with 8. AVX2 on 10
-// million: 3.4 with 8 that ask ahead, 2.9 with 4 that do not.)
-constexpr std::size_t kPackets = 4, kMaxPackets = HWY_TARGET <= HWY_AVX3 ? 4 : 8;
-
 // Counts steps, and nothing else.
 struct CountConsumer {
   static constexpr bool kMeasure = false;
-  static constexpr std::size_t kMaxPackets = HWY_NAMESPACE::kMaxPackets;
 
   std::span<std::uint32_t> counts;
 
@@ -30,12 +24,11 @@ struct CountConsumer {
 void CountCells(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
                 std::span<std::uint32_t> counts) {
   CountConsumer consumer{counts};
-  WalkAlong<kPackets>(mesh, axis, consumer, feeder);
+  WalkAlong(mesh, axis, consumer, feeder);
 }
 
 struct IntegralConsumer {
   static constexpr bool kMeasure = true;
-  static constexpr std::size_t kMaxPackets = HWY_NAMESPACE::kMaxPackets;
 
   std::span<PacketIntegral> sums;
   HWY_ALIGN float lengths[kMaxPackets][kMaxLanes] = {};
@@ -64,12 +57,11 @@ struct IntegralConsumer {
 void IntegrateScalar(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
                      std::span<PacketIntegral> sums) {
   IntegralConsumer consumer{sums};
-  WalkAlong<kPackets>(mesh, axis, consumer, feeder);
+  WalkAlong(mesh, axis, consumer, feeder);
 }
 
 struct IsosurfaceConsumer {
   static constexpr bool kMeasure = true;
-  static constexpr std::size_t kMaxPackets = HWY_NAMESPACE::kMaxPackets;
 
   const float isovalue;
   std::span<PacketHit> hits;
@@ -104,12 +96,11 @@ struct IsosurfaceConsumer {
 void FindIsosurface(const WalkableTets& mesh, int axis, float isovalue, PacketFeeder& feeder,
                     std::span<PacketHit> hits) {
   IsosurfaceConsumer consumer{isovalue, hits};
-  WalkAlong<kPackets>(mesh, axis, consumer, feeder);
+  WalkAlong(mesh, axis, consumer, feeder);
 }
 
 struct SegmentConsumer {
   static constexpr bool kMeasure = true;
-  static constexpr std::size_t kMaxPackets = HWY_NAMESPACE::kMaxPackets;
 
   PacketSegmentSink& sink;
   std::uint32_t rays[kMaxPackets][kMaxLanes] = {};
@@ -137,7 +128,7 @@ struct SegmentConsumer {
 void WalkSegments(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
                   PacketSegmentSink& sink) {
   SegmentConsumer consumer{sink};
-  WalkAlong<kPackets>(mesh, axis, consumer, feeder);
+  WalkAlong(mesh, axis, consumer, feeder);
 }
 
 const char* InstructionSet() { return hwy::TargetName(HWY_TARGET); }
