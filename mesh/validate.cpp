@@ -122,7 +122,8 @@ Bounds check_structure(const Mesh& mesh) {
     throw Error(fmt::format("the point array has {} values, which is no multiple of 3",
                             mesh.points.size()));
   const Bounds bounds = bounds_of(mesh.points);
-  if (mesh.point_count() >= kNone || mesh.cell_count() >= kNone / 6)
+  // Faces are numbered, six a cell at the most; and packets load points by twice their numbers.
+  if (mesh.point_count() >= kNone / 2 || mesh.cell_count() >= kNone / 6)
     throw Error(fmt::format("{} points and {} cells are more than Plume can number",
                             mesh.point_count(), mesh.cell_count()));
   if (mesh.is_grid()) {
