@@ -15,7 +15,7 @@ bool PacketTile::prepare(std::size_t index, const std::optional<Entry>& entry, d
   }
   Crossing place = entry->place;
   if (overlap > 0) place.z = seen_until;
-  set_start(ray.start, mesh_, ray.frame, mesh_.boundary[entry->boundary], place,
+  set_start(ray.start, mesh_, ray.frame, mesh_.boundary[entry->boundary], place, entry->rank,
             static_cast<std::uint32_t>(index));
   ++ray.entries;
   return true;

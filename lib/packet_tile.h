@@ -46,7 +46,7 @@ class PacketTile {
     double t_min = 0;
     bool valid = false;  // has a direction
     Entries<TetWalker> all_entries;
-    PacketStart start;
+    TetStart start;
     std::uint32_t entries = 0;
     bool declined = false;
     bool waiting = false;  // has an entry that was not walked yet

@@ -20,7 +20,7 @@
 #include "plume/lib/pixel.h"
 #include "plume/lib/scene_body.h"
 #include "plume/mesh/error.h"
-#include "plume/traverse/tet_packets.h"
+#include "plume/traverse/packets.h"
 
 namespace plume {
 namespace {

@@ -7,7 +7,7 @@
 #define HWY_TARGET_INCLUDE "plume/lib/volume_packets.cpp"
 #include "hwy/foreach_target.h"
 #include "plume/preint/closed_form-inl.h"
-#include "plume/traverse/tet_packets-inl.h"
+#include "plume/traverse/tet_steps-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plume {
@@ -102,7 +102,7 @@ void CompositePackets(const WalkableTets& mesh, const PieceTable& table, int axi
     VolumeConsumer<std::decay_t<decltype(pieces)>> consumer{
         table, pieces, mesh.cell_values.empty() ? nullptr : mesh.cell_values.data(),
         std::max(early_termination, 1e-9f), colors};
-    WalkAlong(mesh, axis, consumer, feeder);
+    Walk(mesh, axis, consumer, feeder);
   };
 #if HWY_TARGET != HWY_SCALAR
   if (optics::SmallTable::fits(table)) return composite(optics::SmallTable(table));

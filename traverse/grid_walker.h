@@ -44,6 +44,9 @@ class GridWalker {
   }
 
   std::uint32_t cell() const { return cell_; }
+  /// The face by which the ray came into the cell, and which of its ways in that was.
+  std::uint32_t face() const { return face_; }
+  std::uint32_t rank() const { return rank_; }
 
   std::optional<Crossing> leave() {
     std::array<ShearedPoint, 8> corner;

@@ -7,7 +7,7 @@
 
 #include "hwy/targets.h"
 #include "plume/lib/volume_packets.h"
-#include "plume/traverse/tet_packets.h"
+#include "plume/traverse/packets.h"
 
 namespace plume::bench {
 namespace {
@@ -25,10 +25,11 @@ class PassageFeeder : public PacketFeeder {
     const Passage& passage = view_.passages[index];
     frame_.set(view_.rays[passage.ray], mesh_.tets.frame);
     // A lane's place is free again when its ray has finished.
-    PacketStart& start =
-        finished ? starts_[static_cast<std::size_t>(finished - starts_.data())] : starts_[used_++];
+    TetStart& start = finished ? starts_[static_cast<std::size_t>(
+                                     static_cast<const TetStart*>(finished) - starts_.data())]
+                               : starts_[used_++];
     set_start(start, mesh_.tets, frame_, mesh_.tets.boundary[passage.entry.boundary],
-              passage.entry.place, index);
+              passage.entry.place, passage.entry.rank, index);
     return &start;
   }
 
@@ -36,7 +37,7 @@ class PassageFeeder : public PacketFeeder {
   const BenchMesh& mesh_;
   const BenchView& view_;
   const std::vector<std::uint32_t>& passages_;
-  std::array<PacketStart, kMaxPacketLanes> starts_;
+  std::array<TetStart, kMaxPacketLanes> starts_;
   std::size_t used_ = 0;
   std::size_t at_ = 0;
   ShearedFrame frame_;

@@ -11,7 +11,7 @@
 #include "hwy/targets.h"
 #include "plume/datasets/generate.h"
 #include "plume/lib/plume.h"
-#include "plume/traverse/tet_packets.h"
+#include "plume/traverse/packets.h"
 
 namespace plume::test {
 namespace {

@@ -8,7 +8,7 @@
 #include "plume/mesh/validate.h"
 #include "plume/tests/long/aimed_rays.h"
 #include "plume/tests/reference/box_chord.h"
-#include "plume/traverse/tet_packets.h"
+#include "plume/traverse/packets.h"
 #include "plume/traverse/trace.h"
 
 namespace plume::test {
@@ -39,7 +39,7 @@ struct Way {
 // All passages of a ray by the scalar walker alone.
 struct TwinWalk {
   std::vector<Way> ways;
-  std::vector<PacketStart> starts;
+  std::vector<TetStart> starts;
   bool lost = false;
 
   void clear() {
@@ -57,8 +57,8 @@ void walk_twin(const SoakMesh& mesh, const ShearedFrame& frame, TwinWalk& walk) 
   for (auto entry = entries.first(mesh.boundary, walker, frame); entry;
        entry = entries.next(mesh.boundary, walker, frame)) {
     walker.enter(mesh.tets.boundary[entry->boundary], entry->rank);
-    walk.starts.push_back(
-        make_start(mesh.tets, frame, mesh.tets.boundary[entry->boundary], entry->place, 0));
+    walk.starts.push_back(make_start(mesh.tets, frame, mesh.tets.boundary[entry->boundary],
+                                     entry->place, entry->rank, 0));
     Way& way = walk.ways.emplace_back();
     do {
       way.add(walker.cell());
@@ -120,13 +120,13 @@ bool same_turned(const SoakMesh& mesh, const Ray& ray, const TwinWalk& forth, Tw
 
 class Starts : public PacketFeeder {
  public:
-  explicit Starts(const std::vector<PacketStart>& starts) : starts_(starts) {}
+  explicit Starts(const std::vector<TetStart>& starts) : starts_(starts) {}
   const PacketStart* next(const PacketStart*) override {
     return at_ < starts_.size() ? &starts_[at_++] : nullptr;
   }
 
  private:
-  const std::vector<PacketStart>& starts_;
+  const std::vector<TetStart>& starts_;
   std::size_t at_ = 0;
 };
 
@@ -204,8 +204,8 @@ SoakTally soak(const SoakMesh& mesh, std::uint64_t seed, std::uint64_t batch, st
   };
 
   AimedRays make_ray(mesh.mesh, mesh.bounds, seed * 0x9E3779B97F4A7C15ull + batch);
-  std::array<std::vector<PacketStart>, 3> starts;  // of each axis
-  std::vector<Way> ways;                           // of all passages
+  std::array<std::vector<TetStart>, 3> starts;  // of each axis
+  std::vector<Way> ways;                        // of all passages
   std::vector<std::uint64_t> ray_of;
   std::vector<Ray> chord_rays(mesh.fills_bounds ? rays : 0);
   TwinWalk twin, turned;

@@ -15,7 +15,7 @@
 #include "plume/mesh/error.h"
 #include "plume/tests/long/ray_soak.h"
 #include "plume/tests/long/soak_meshes.h"
-#include "plume/traverse/tet_packets.h"
+#include "plume/traverse/packets.h"
 
 namespace {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "hwy/targets.h"
-#include "plume/traverse/tet_packets.h"
+#include "plume/traverse/packets.h"
 #include "plume/traverse/tet_walker.h"
 
 namespace plume::test {
@@ -85,7 +85,7 @@ std::uint32_t way_out(const WalkableTets& mesh, const ShearedFrame& frame,
 
 class Starts : public PacketFeeder {
  public:
-  std::vector<PacketStart> starts;
+  std::vector<TetStart> starts;
   const PacketStart* next(const PacketStart*) override {
     return at_ < starts.size() ? &starts[at_++] : nullptr;
   }
@@ -114,7 +114,7 @@ void expect_packets(const WalkableTets& mesh, const ShearedFrame& frame,
     Starts feeder;
     for (const WalkableTets::Boundary& face : faces_of_the_cell()) {
       const Crossing place = TetWalker(mesh, frame).measure_boundary(face, 1);
-      feeder.starts.push_back(make_start(mesh, frame, face, place, face.apex));
+      feeder.starts.push_back(make_start(mesh, frame, face, place, 0, face.apex));
     }
     Cells cells;
     walk_segments(mesh, frame.axis(), feeder, cells);

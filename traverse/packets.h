@@ -1,19 +1,23 @@
-/// Tetrahedra walked by packets of rays with the widest instructions that the processor has.
+/// Meshes walked by packets of rays with the widest instructions that the processor has.
 #pragma once
 
 #include <cstdint>
 #include <limits>
 #include <span>
 
+#include "plume/mesh/walkable_grid.h"
 #include "plume/mesh/walkable_tets.h"
 #include "plume/traverse/packet_start.h"
 
 namespace plume {
 
 /// Walks all rays of `feeder` and counts, by PacketStart::ray, the cells that each went through
-/// (added to what is there). The rays' longest axis must be `axis`, 0 to 2. Takes the same way as
-/// TetWalker, bit for bit, with any instruction set.
+/// (added to what is there). The rays' longest axis must be `axis`, 0 to 2; their starts are
+/// TetStart or GridStart, as the mesh is. Takes the same way as TetWalker or GridWalker, bit for
+/// bit, with any instruction set.
 void count_cells(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
+                 std::span<std::uint32_t> counts);
+void count_cells(const WalkableGrid& mesh, int axis, PacketFeeder& feeder,
                  std::span<std::uint32_t> counts);
 
 /// The line integral of the scalar along the passages of a ray.
@@ -28,6 +32,8 @@ struct PacketIntegral {
 /// in the last place at the most, and about the square root of that.
 void integrate_scalar(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
                       std::span<PacketIntegral> sums);
+void integrate_scalar(const WalkableGrid& mesh, int axis, PacketFeeder& feeder,
+                      std::span<PacketIntegral> sums);
 
 /// Where a ray first meets an isosurface.
 struct PacketHit {
@@ -40,6 +46,8 @@ struct PacketHit {
 /// `isovalue`; a value equal to it counts as above. Cells are added to what is there. A ray that
 /// was not hit may come back with its next passage.
 void find_isosurface(const WalkableTets& mesh, int axis, float isovalue, PacketFeeder& feeder,
+                     std::span<PacketHit> hits);
+void find_isosurface(const WalkableGrid& mesh, int axis, float isovalue, PacketFeeder& feeder,
                      std::span<PacketHit> hits);
 
 /// Segments of packets, for tests: what every lane met, in the order in which it did.
@@ -55,6 +63,8 @@ class PacketSegmentSink {
   virtual void take(const PacketSegment& segment) = 0;
 };
 void walk_segments(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
+                   PacketSegmentSink& sink);
+void walk_segments(const WalkableGrid& mesh, int axis, PacketFeeder& feeder,
                    PacketSegmentSink& sink);
 
 /// The instruction set that is used: "AVX3", "AVX2", "SSE4", "NEON", ...

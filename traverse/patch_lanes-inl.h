@@ -1,0 +1,90 @@
+// Where rays cross bilinear patches, a ray a lane. Compiled once for each instruction set: to be
+// included after hwy/foreach_target.h alone.
+
+// clang-format off
+#if defined(PLUME_TRAVERSE_PATCH_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLUME_TRAVERSE_PATCH_LANES_INL_H_
+#undef PLUME_TRAVERSE_PATCH_LANES_INL_H_
+#else
+#define PLUME_TRAVERSE_PATCH_LANES_INL_H_
+#endif
+// clang-format on
+
+#include <cstddef>
+#include <cstdint>
+
+#include "hwy/highway.h"
+#include "plume/traverse/packet_walk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace plume {
+namespace HWY_NAMESPACE {
+
+// Quadrilaterals in the lanes' sheared frames. Where nothing is measured, z and s are left alone.
+template <bool kMeasure>
+struct QuadLanes {
+  VF x[4], y[4], z[4], s[4];
+};
+
+// measure_patch() in single precision, for a loop that winds once about the ray; the sign of
+// `winding` says in which direction. The line that joins corner 0 and 3 at v to 1 and 2 at v passes
+// through the ray where
+//     front (1 - v)^2 + middle v (1 - v) + back v^2 = 0,
+// whose coefficients are cross products of the corners, free of cancellation; a loop of positive
+// winding is crossed where that falls. Of v / (1 - v) = root, the form that does not cancel is
+// taken. Roots: Reshetov, "Cool Patches" (Ray Tracing Gems, 2019).
+//
+// Returned are the lanes where that is not so: beside the patch, by rounding, or no number at all,
+// where the face is seen edge-on. measure_patch() knows what to do then.
+HWY_INLINE MF MeasurePatch(const QuadLanes<true>& p, VF winding, VF& z, VF& s) {
+  const DF d;
+  const DU du;
+  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  auto cross = [&](std::size_t a, std::size_t b) {
+    return DifferenceOfProducts(p.x[a], p.y[b], p.x[b], p.y[a]);
+  };
+  const VF turn = hn::And(winding, hn::SignBit(d));
+  VF front = hn::Xor(cross(0, 1), turn);
+  VF back = hn::Xor(cross(2, 3), turn);  // minus the coefficient: >= 0 in a convex face, as `front`
+  VF middle = hn::Xor(hn::Add(cross(0, 2), cross(3, 1)), turn);
+  // Only their ratios count: brought to about 1 by a power of two, so that squares do not
+  // underflow.
+  const VF largest = hn::Max(hn::Max(hn::Abs(front), hn::Abs(back)), hn::Abs(middle));
+  const VU exponent = hn::And(hn::BitCast(du, largest), hn::Set(du, 0x7F800000u));
+  const VF scale = hn::BitCast(d, hn::Sub(hn::Set(du, 0x7F000000u), exponent));
+  front = hn::Mul(front, scale);
+  back = hn::Mul(back, scale);
+  middle = hn::Mul(middle, scale);
+  const VF root = hn::Sqrt(
+      hn::Max(zero, hn::MulAdd(middle, middle, hn::Mul(hn::Set(d, 4.0f), hn::Mul(front, back)))));
+  const VF sum = hn::Add(hn::Abs(middle), root);
+  const VF of_v = Choose(middle, hn::Add(front, front), sum);
+  const VF of_rest = Choose(middle, sum, hn::Add(back, back));
+  const VF v = hn::Div(of_v, hn::Add(of_v, of_rest));
+  auto at_v = [&](const VF(&values)[4], VF& from, VF& to) {
+    from = hn::MulAdd(v, hn::Sub(values[3], values[0]), values[0]);
+    to = hn::MulAdd(v, hn::Sub(values[2], values[1]), values[1]);
+  };
+  VF from_x, to_x, from_y, to_y;
+  at_v(p.x, from_x, to_x);
+  at_v(p.y, from_y, to_y);
+  const VF way_x = hn::Sub(from_x, to_x), way_y = hn::Sub(from_y, to_y);
+  const MF by_x = hn::Gt(hn::Abs(way_x), hn::Abs(way_y));
+  const VF u = hn::Div(hn::IfThenElse(by_x, from_x, from_y), hn::IfThenElse(by_x, way_x, way_y));
+  auto at = [&](const VF(&values)[4]) {
+    VF from, to;
+    at_v(values, from, to);
+    return hn::MulAdd(u, hn::Sub(to, from), from);
+  };
+  z = at(p.z);
+  s = at(p.s);
+  const MF inside =
+      hn::And(hn::And(hn::Ge(v, zero), hn::Le(v, one)), hn::And(hn::Ge(u, zero), hn::Le(u, one)));
+  return hn::Not(inside);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace plume
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard
