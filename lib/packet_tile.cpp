@@ -3,7 +3,9 @@
 namespace plume {
 
 // Sets up a ray's next passage. False where it has none, or none for packets.
-bool PacketTile::prepare(std::size_t index, const std::optional<Entry>& entry, double seen_until) {
+template <class Walker>
+bool PacketTile<Walker>::prepare(std::size_t index, const std::optional<Entry>& entry,
+                                 double seen_until) {
   TileRay& ray = rays_[index];
   if (!entry) return false;
   // Up to what single precision makes of one and the same place, an overlap is none.
@@ -21,7 +23,8 @@ bool PacketTile::prepare(std::size_t index, const std::optional<Entry>& entry, d
   return true;
 }
 
-void PacketTile::add(const Ray& ray) {
+template <class Walker>
+void PacketTile<Walker>::add(const Ray& ray) {
   if (size_ == rays_.size()) rays_.emplace_back();
   TileRay& added = rays_[size_++];
   added.entries = 0;
@@ -31,7 +34,8 @@ void PacketTile::add(const Ray& ray) {
   added.t_min = ray.t_min;
 }
 
-void PacketTile::find_first_entries() {
+template <class Walker>
+void PacketTile<Walker>::find_first_entries() {
   frames_.clear();
   found_.clear();
   for (std::size_t index = 0; index < size_; ++index) {
@@ -53,7 +57,8 @@ void PacketTile::find_first_entries() {
 }
 
 // Rays of one axis; one that has left is let in again where there is another entry.
-class PacketTile::Feeder : public PacketFeeder {
+template <class Walker>
+class PacketTile<Walker>::Feeder : public PacketFeeder {
  public:
   Feeder(PacketTile& tile, int axis) : tile_(tile), axis_(axis) {}
 
@@ -62,7 +67,7 @@ class PacketTile::Feeder : public PacketFeeder {
       TileRay& ray = tile_.rays_[finished->ray];
       const PacketColor& color = tile_.colors_[finished->ray];
       if (!color.opaque) {
-        const TetWalker walker(tile_.mesh_, ray.frame);
+        const Walker walker(tile_.mesh_, ray.frame);
         if (tile_.prepare(finished->ray, ray.all_entries.next(tile_.boundary_, walker, ray.frame),
                           color.z))
           return &ray.start;
@@ -83,7 +88,8 @@ class PacketTile::Feeder : public PacketFeeder {
   std::size_t at_ = 0;
 };
 
-void PacketTile::composite() {
+template <class Walker>
+void PacketTile<Walker>::composite() {
   colors_.assign(size_, PacketColor{});
   find_first_entries();
   for (int axis = 0; axis < 3; ++axis) {
@@ -91,5 +97,8 @@ void PacketTile::composite() {
     composite_packets(mesh_, table_, axis, early_termination_, feeder, colors_);
   }
 }
+
+template class PacketTile<TetWalker>;
+template class PacketTile<GridWalker>;
 
 }  // namespace plume

@@ -1,9 +1,10 @@
-/// A tile of a picture of tetrahedra, its rays walked by packets.
+/// A tile of a picture, its rays walked by packets.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <type_traits>
 #include <vector>
 
 #include "plume/lib/volume_packets.h"
@@ -12,28 +13,35 @@
 
 namespace plume {
 
+/// What became of a ray of a tile.
+struct PacketResult {
+  PacketColor color;
+  TraceResult trace;
+  /// The ray is left to trace().
+  bool declined = false;
+};
+
 /// Rays of a tile: added one by one, then composited together. Reused from tile to tile.
 ///
 /// Packets walk a ray from entry to entry, each passage whole. A ray that starts inside of the
 /// mesh, or one of whose passages begins before the last one ended (parts that overlap), needs its
 /// segments cut: such rays are left to trace(), and `colors` has nothing for them.
+///
+/// For TetWalker and GridWalker, whose twins the packets are.
+template <class Walker>
 class PacketTile {
  public:
-  PacketTile(const WalkableTets& mesh, const BoundaryIndex<TetWalker>& boundary,
-             const PieceTable& table, float early_termination)
+  using Mesh = typename Walker::Mesh;
+
+  PacketTile(const Mesh& mesh, const BoundaryIndex<Walker>& boundary, const PieceTable& table,
+             float early_termination)
       : mesh_(mesh), boundary_(boundary), table_(table), early_termination_(early_termination) {}
 
   void clear() { size_ = 0; }
   void add(const Ray& ray);
   void composite();
 
-  struct Result {
-    PacketColor color;
-    TraceResult trace;
-    /// The ray is left to trace().
-    bool declined = false;
-  };
-  Result result(std::size_t ray) const {
+  PacketResult result(std::size_t ray) const {
     return {colors_[ray],
             {rays_[ray].entries > 0 && colors_[ray].opaque ? WalkEnd::stopped : WalkEnd::left,
              rays_[ray].entries, colors_[ray].cells},
@@ -45,8 +53,8 @@ class PacketTile {
     ShearedFrame frame;
     double t_min = 0;
     bool valid = false;  // has a direction
-    Entries<TetWalker> all_entries;
-    TetStart start;
+    Entries<Walker> all_entries;
+    std::conditional_t<std::is_same_v<Walker, TetWalker>, TetStart, GridStart> start;
     std::uint32_t entries = 0;
     bool declined = false;
     bool waiting = false;  // has an entry that was not walked yet
@@ -56,8 +64,8 @@ class PacketTile {
   void find_first_entries();
   bool prepare(std::size_t ray, const std::optional<Entry>& entry, double seen_until);
 
-  const WalkableTets& mesh_;
-  const BoundaryIndex<TetWalker>& boundary_;
+  const Mesh& mesh_;
+  const BoundaryIndex<Walker>& boundary_;
   const PieceTable& table_;
   const float early_termination_;
   std::vector<TileRay> rays_;  // the first size_ of them: what there is is used again as it is
@@ -66,5 +74,8 @@ class PacketTile {
   std::vector<const ShearedFrame*> frames_;
   std::vector<EntryList*> found_;
 };
+
+extern template class PacketTile<TetWalker>;
+extern template class PacketTile<GridWalker>;
 
 }  // namespace plume

@@ -111,10 +111,10 @@ class Frame {
       }
   }
 
-  // The same for tetrahedra by packets of rays; those that packets decline are left to the twin.
-  template <class Integrator>
-  void render_tile(const Walkable<TetWalker>& walkable, const Integrator& integrator,
-                   PacketTile& packets, int tile_x, int tile_y, Counts& counts) {
+  // The same by packets of rays; those that packets decline are left to the twin.
+  template <class Walker, class Integrator>
+  void render_tile(const Walkable<Walker>& walkable, const Integrator& integrator,
+                   PacketTile<Walker>& packets, int tile_x, int tile_y, Counts& counts) {
     const int end_x = std::min(tile_x + kTile, settings_.width);
     const int end_y = std::min(tile_y + kTile, settings_.height);
     packets.clear();
@@ -131,7 +131,7 @@ class Frame {
       const std::size_t index =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(settings_.width) +
           static_cast<std::size_t>(x);
-      const PacketTile::Result result = packets.result(ray++);
+      const PacketResult result = packets.result(ray++);
       if (result.declined) {
         counts.add(render_pixel(walkable, integrator, rays_(x + 0.5, y + 0.5), index));
         return;
@@ -145,7 +145,7 @@ class Frame {
     });
   }
 
-  // Whether packets can render this frame: tetrahedra, volume, closed form, nothing besides.
+  // Whether packets can render this frame: volume, closed form, nothing besides.
   bool by_packets() const {
     return !settings_.scalar_twin && settings_.mode == Mode::volume &&
            settings_.integrator.kind == IntegratorKind::closed_form && settings_.channels.empty();
@@ -328,7 +328,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   Frame frame(scene, camera, effective);
   RenderResult result;
   result.statistics.plan = describe_plan(scene, settings);
-  if (std::string(scene.form()) == "tetrahedra")
+  if (std::string(scene.form()) != "cells")
     result.statistics.plan.push_back(
         frame.by_packets() ? fmt::format("rays: in packets, {}", packet_instruction_set())
                            : "rays: one by one (packets serve the volume mode by the closed form, "
@@ -365,11 +365,11 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   std::visit(
       [&](const auto& walkable, const auto& chosen) {
         using Form = typename std::decay_t<decltype(*walkable)>::Walker;
-        if constexpr (std::is_same_v<Form, TetWalker>) {
+        if constexpr (!std::is_same_v<Form, CellWalker>) {
           if (frame.by_packets()) {
-            tbb::enumerable_thread_specific<PacketTile> packets([&] {
-              return PacketTile(walkable->mesh, walkable->boundary, pieces,
-                                static_cast<float>(effective.early_termination));
+            tbb::enumerable_thread_specific<PacketTile<Form>> packets([&] {
+              return PacketTile<Form>(walkable->mesh, walkable->boundary, pieces,
+                                      static_cast<float>(effective.early_termination));
             });
             for_each_tile([&](int x, int y) {
               frame.render_tile(*walkable, chosen, packets.local(), x, y, counts.local());

@@ -1,9 +1,10 @@
-/// Volume compositing of tetrahedra by packets of rays.
+/// Volume compositing by packets of rays.
 #pragma once
 
 #include <cstdint>
 #include <span>
 
+#include "plume/mesh/walkable_grid.h"
 #include "plume/mesh/walkable_tets.h"
 #include "plume/preint/piece_table.h"
 #include "plume/traverse/packet_start.h"
@@ -25,10 +26,13 @@ struct PacketColor {
 /// colors[PacketStart::ray]. The rays' longest axis must be `axis`, 0 to 2. A ray ends once its
 /// transmittance is at most `early_termination`.
 ///
-/// Error against ClosedForm and TetWalker in double: below 1e-5 in each channel in
+/// Error against ClosedForm and the scalar walker in double: below 1e-5 in each channel in
 /// tests/lib/packets_test.cpp, but where extinction changes by more than the rounding of a scalar
 /// to a float allows (a narrow spike).
 void composite_packets(const WalkableTets& mesh, const PieceTable& table, int axis,
+                       float early_termination, PacketFeeder& feeder,
+                       std::span<PacketColor> colors);
+void composite_packets(const WalkableGrid& mesh, const PieceTable& table, int axis,
                        float early_termination, PacketFeeder& feeder,
                        std::span<PacketColor> colors);
 

@@ -1,5 +1,7 @@
 // Pictures by packets of rays against those of the plain scalar code, with every instruction set.
 
+#include "plume/traverse/packets.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -11,7 +13,6 @@
 #include "hwy/targets.h"
 #include "plume/datasets/generate.h"
 #include "plume/lib/plume.h"
-#include "plume/traverse/packets.h"
 
 namespace plume::test {
 namespace {
@@ -82,10 +83,19 @@ class EachInstructionSet : public testing::Test {
     limit_packet_instruction_sets(0);
   }
 };
-using Packets = EachInstructionSet;
 
-TEST_F(Packets, CompositeAsTheTwinDoesForEveryTransferFunction) {
-  Scene scene(generate("box-tetrahedra", {9, 0.2, 2}), {{"linear", {}}});
+// Meshes that packets walk.
+class Packets : public EachInstructionSet, public testing::WithParamInterface<const char*> {};
+INSTANTIATE_TEST_SUITE_P(Each, Packets,
+                         testing::Values("box-tetrahedra", "box-hexahedra", "twisted"),
+                         [](const auto& one) {
+                           std::string name = one.param;
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST_P(Packets, CompositeAsTheTwinDoesForEveryTransferFunction) {
+  Scene scene(generate(GetParam(), {9, 0.2, 2}), {{"linear", {}}});
   for (const auto& [name, transfer_function] : transfer_functions()) {
     SCOPED_TRACE(name);
     scene.set_transfer_function(transfer_function);
@@ -97,14 +107,14 @@ TEST_F(Packets, CompositeAsTheTwinDoesForEveryTransferFunction) {
   }
 }
 
-TEST_F(Packets, EndARayWhereItIsOpaque) {
-  Scene scene(generate("box-tetrahedra", {9, 0.2, 2}), {{"linear", {}}});
+TEST_P(Packets, EndARayWhereItIsOpaque) {
+  Scene scene(generate(GetParam(), {9, 0.2, 2}), {{"linear", {}}});
   scene.set_transfer_function({{{0, {20, {1, 0.5f, 0.2f}}}}});
   for_each([&] { EXPECT_LE(worst_difference(scene, oblique(scene), 1e-3), 2e-3); });
 }
 
-TEST_F(Packets, LeaveCamerasInsideToTheTwin) {
-  Scene scene(generate("box-tetrahedra", {6, 0.2, 2}));
+TEST_P(Packets, LeaveCamerasInsideToTheTwin) {
+  Scene scene(generate(GetParam(), {6, 0.2, 2}));
   Camera camera;
   camera.position = {0.4, 0.5, 0.6};
   camera.focal_point = {1, 0.6, 0.5};
@@ -112,14 +122,20 @@ TEST_F(Packets, LeaveCamerasInsideToTheTwin) {
   EXPECT_EQ(worst_difference(scene, camera), 0);
 }
 
-TEST_F(Packets, TakeCellData) {
-  Scene scene(generate("box-tetrahedra", {9, 0.2, 2}), {{"cell_radius", {}}});
+TEST_P(Packets, TakeCellData) {
+  Scene scene(generate(GetParam(), {9, 0.2, 2}), {{"cell_radius", {}}});
   for_each([&] { EXPECT_LE(worst_difference(scene, oblique(scene)), kBound); });
 }
 
 // Every second slab of the box is taken away: rays leave and enter again.
-Mesh slabs() {
-  Mesh mesh = generate("box-tetrahedra", {8, 0.0, 2});
+Mesh slabs(const std::string& name) {
+  Mesh mesh = generate(name, {8, 0.0, 2});
+  if (mesh.is_grid()) {
+    std::vector<std::uint8_t> hidden;
+    for (std::size_t c = 0; c < mesh.cell_count(); ++c) hidden.push_back(c % 2 == 1);
+    mesh.hidden_cells = Array::own(std::move(hidden));
+    return mesh;
+  }
   std::vector<std::int32_t> kept;
   for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
     double x = 0;
@@ -134,8 +150,8 @@ Mesh slabs() {
   return mesh;
 }
 
-TEST_F(Packets, EnterAgainWhereTheMeshHasGaps) {
-  const Scene scene(slabs(), {{"linear", {}}});
+TEST_P(Packets, EnterAgainWhereTheMeshHasGaps) {
+  const Scene scene(slabs(GetParam()), {{"linear", {}}});
   Camera camera = fitted_camera(scene.bounds(), {-1, 0.1, -0.07});
   RenderSettings settings;
   settings.width = settings.height = 32;
@@ -145,8 +161,8 @@ TEST_F(Packets, EnterAgainWhereTheMeshHasGaps) {
   for_each([&] { EXPECT_LE(worst_difference(scene, camera), kBound); });
 }
 
-TEST_F(Packets, SeeThroughWhatIsNotANumber) {
-  Mesh mesh = generate("box-tetrahedra", {6, 0.2, 2});
+TEST_P(Packets, SeeThroughWhatIsNotANumber) {
+  Mesh mesh = generate(GetParam(), {6, 0.2, 2});
   std::vector<float> values;
   for (std::size_t i = 0; i < mesh.point_count(); ++i)
     values.push_back(i % 7 == 0 ? std::numeric_limits<float>::quiet_NaN()

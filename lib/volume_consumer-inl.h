@@ -1,13 +1,26 @@
-#include "plume/lib/volume_packets.h"
+// What compositing does with the segments of packets (see PacketWalk). Compiled once for each
+// instruction set: to be included after hwy/foreach_target.h alone.
+
+// clang-format off
+#if defined(PLUME_LIB_VOLUME_CONSUMER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLUME_LIB_VOLUME_CONSUMER_INL_H_
+#undef PLUME_LIB_VOLUME_CONSUMER_INL_H_
+#else
+#define PLUME_LIB_VOLUME_CONSUMER_INL_H_
+#endif
+// clang-format on
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <type_traits>
+#include <vector>
 
-#undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "plume/lib/volume_packets.cpp"
-#include "hwy/foreach_target.h"
+#include "hwy/highway.h"
+#include "plume/lib/volume_packets.h"
 #include "plume/preint/closed_form-inl.h"
-#include "plume/traverse/tet_steps-inl.h"
+#include "plume/traverse/packet_walk-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plume {
@@ -94,15 +107,16 @@ struct VolumeConsumer {
   }
 };
 
-void CompositePackets(const WalkableTets& mesh, const PieceTable& table, int axis,
-                      float early_termination, PacketFeeder& feeder,
-                      std::span<PacketColor> colors) {
+// Composites by walk(consumer), with the consumer that fits the table.
+template <class Walk>
+void CompositeBy(const PieceTable& table, const std::vector<float>& cell_values,
+                 float early_termination, std::span<PacketColor> colors, const Walk& walk) {
   auto composite = [&](const auto& pieces) {
     // Behind a transmittance of 1e-9 nothing changes a float between 0 and 1.
     VolumeConsumer<std::decay_t<decltype(pieces)>> consumer{
-        table, pieces, mesh.cell_values.empty() ? nullptr : mesh.cell_values.data(),
+        table, pieces, cell_values.empty() ? nullptr : cell_values.data(),
         std::max(early_termination, 1e-9f), colors};
-    Walk(mesh, axis, consumer, feeder);
+    walk(consumer);
   };
 #if HWY_TARGET != HWY_SCALAR
   if (optics::SmallTable::fits(table)) return composite(optics::SmallTable(table));
@@ -114,16 +128,4 @@ void CompositePackets(const WalkableTets& mesh, const PieceTable& table, int axi
 }  // namespace plume
 HWY_AFTER_NAMESPACE();
 
-#if HWY_ONCE
-namespace plume {
-
-HWY_EXPORT(CompositePackets);
-
-void composite_packets(const WalkableTets& mesh, const PieceTable& table, int axis,
-                       float early_termination, PacketFeeder& feeder,
-                       std::span<PacketColor> colors) {
-  HWY_DYNAMIC_DISPATCH(CompositePackets)(mesh, table, axis, early_termination, feeder, colors);
-}
-
-}  // namespace plume
-#endif  // HWY_ONCE
+#endif  // include guard
