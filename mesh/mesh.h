@@ -73,9 +73,7 @@ struct Mesh {
 
   /// A grid of either kind: cells follow from `dimensions`.
   bool is_grid() const { return dimensions[0] > 0; }
-  bool is_rectilinear() const {
-    return !axes[0].empty() || !axes[1].empty() || !axes[2].empty();
-  }
+  bool is_rectilinear() const { return !axes[0].empty() || !axes[1].empty() || !axes[2].empty(); }
   std::size_t point_count() const;
   /// Hidden cells included.
   std::size_t cell_count() const;

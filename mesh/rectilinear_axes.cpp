@@ -21,9 +21,9 @@ void check_axis(const Array& axis, char name) {
     auto at = [&](std::size_t i) { return static_cast<double>(values[i]); };
     for (std::size_t i = 0; i < values.size(); ++i)
       if (!std::isfinite(at(i)))
-        throw Error(fmt::format(
-            "the {} coordinate {} is {}: coordinates must be finite; repair the axis", name, i,
-            at(i)));
+        throw Error(
+            fmt::format("the {} coordinate {} is {}: coordinates must be finite; repair the axis",
+                        name, i, at(i)));
     const bool ascending = at(values.size() - 1) > at(0);
     for (std::size_t i = 1; i < values.size(); ++i)
       if (!(ascending ? at(i) > at(i - 1) : at(i) < at(i - 1)))
@@ -83,9 +83,9 @@ Bounds check_axes(const Mesh& mesh) {
 
 Mesh with_points(const Mesh& rectilinear) {
   Mesh mesh = rectilinear;
-  const bool single =
-      std::all_of(mesh.axes.begin(), mesh.axes.end(),
-                  [](const Array& axis) { return axis.type() == Array::Type::float32; });
+  const bool single = std::all_of(mesh.axes.begin(), mesh.axes.end(), [](const Array& axis) {
+    return axis.type() == Array::Type::float32;
+  });
   mesh.points = single ? points_of<float>(rectilinear) : points_of<double>(rectilinear);
   mesh.axes = {};
   return mesh;

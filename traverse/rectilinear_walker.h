@@ -1,18 +1,19 @@
-/// Walking the cells of a rectilinear grid from plane to plane: J. Amanatides, A. Woo, "A Fast Voxel
-/// Traversal Algorithm for Ray Tracing" (Eurographics 1987), for planes at any distances.
+/// Walking the cells of a rectilinear grid from plane to plane: J. Amanatides, A. Woo, "A Fast
+/// Voxel Traversal Algorithm for Ray Tracing" (Eurographics 1987), for planes at any distances.
 ///
 /// Where the ray crosses a plane is computed from the plane's own coordinate, never added up. A
-/// rounded difference times a rounded factor is monotone in the coordinate, so the planes of an axis
-/// are crossed in their order, whatever the rounding, and merging three such sequences needs no
-/// epsilon. A walk ends where the first axis runs out of planes, which is one of those very numbers.
+/// rounded difference times a rounded factor is monotone in the coordinate, so the planes of an
+/// axis are crossed in their order, whatever the rounding, and merging three such sequences needs
+/// no epsilon. A walk ends where the first axis runs out of planes, which is one of those very
+/// numbers.
 ///
 /// A tie (a ray through a vertex or an edge of the grid, or in one of its planes) is resolved as if
 /// the ray had been moved by an infinitesimal amount in +x, a smaller one in +y and a still smaller
-/// one in +z, whatever its direction. So a ray in a plane runs through the cells on that plane's side
-/// of larger coordinates; one in the last plane of an axis misses, and of two grids that meet there
-/// exactly one is seen. Through a vertex or an edge the ray passes cells on a segment of length
-/// zero, and a reversed ray the same ones in reverse. None of these comes first or last: a ray that
-/// does no more than touch the grid's boundary misses.
+/// one in +z, whatever its direction. So a ray in a plane runs through the cells on that plane's
+/// side of larger coordinates; one in the last plane of an axis misses, and of two grids that meet
+/// there exactly one is seen. Through a vertex or an edge the ray passes cells on a segment of
+/// length zero, and a reversed ray the same ones in reverse. None of these comes first or last: a
+/// ray that does no more than touch the grid's boundary misses.
 #pragma once
 
 #include <algorithm>
@@ -100,19 +101,19 @@ class RectilinearWalker {
 
   // One axis as the ray sees it: planes, cells and points are counted along the ray.
   struct Axis {
-    double t_next;          // where the ray crosses the plane ahead
-    double t_behind;        // where it has crossed the one behind; 0 for an axis across the ray
-    double rate;            // weight per t; 0 for an axis across the ray
-    double base;            // weight of an axis across the ray, else 0
-    double origin;          // the ray's origin
-    double per_direction;   // 1 / direction; infinite for an axis across the ray
-    double speed;           // |direction|
-    const double* plane;    // the coordinate of the plane ahead
+    double t_next;         // where the ray crosses the plane ahead
+    double t_behind;       // where it has crossed the one behind; 0 for an axis across the ray
+    double rate;           // weight per t; 0 for an axis across the ray
+    double base;           // weight of an axis across the ray, else 0
+    double origin;         // the ray's origin
+    double per_direction;  // 1 / direction; infinite for an axis across the ray
+    double speed;          // |direction|
+    const double* plane;   // the coordinate of the plane ahead
     const double* per_width;
-    std::ptrdiff_t step;    // from a plane to the next in memory: 1 or -1
+    std::ptrdiff_t step;  // from a plane to the next in memory: 1 or -1
     std::uint32_t planes;
     std::uint32_t cell_step, point_step;  // modulo 2^32, as they may be negative
-    bool across;            // the ray runs along this axis' planes
+    bool across;                          // the ray runs along this axis' planes
 
     // How far between the planes behind and ahead: 0 to 1. Rounding may take it above 1, not below
     // 0, as t is not less than t_behind.
@@ -185,8 +186,7 @@ class RectilinearWalker {
     axis.plane += cells;
     axis.per_width += cells;
     axis.rate = axis.speed * *axis.per_width;
-    axis.base =
-        axis.across ? std::min(1.0, (axis.origin - *axis.plane) * *axis.per_width) : 0;
+    axis.base = axis.across ? std::min(1.0, (axis.origin - *axis.plane) * *axis.per_width) : 0;
     axis.plane += axis.step;
     // Where the ray goes down in memory, its first point and cell are the last ones there.
     const bool forwards = axis.step > 0;

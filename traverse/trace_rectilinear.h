@@ -20,7 +20,7 @@ class BoundaryIndex<RectilinearWalker> {
 /// itself at the segment's ends and in between; along a ray it is a cubic, so cubic is exact.
 inline void take_scalar(const RectilinearWalker& walker, const Ray& ray, ScalarOrder order,
                         Segment& segment) {
-  const bool from_inside = segment.t_in < ray.t_min, to_inside = segment.t_out > ray.t_max;
+  const bool from_inside = segment.t_in<ray.t_min, to_inside = segment.t_out> ray.t_max;
   segment.order = order;
   if (order == ScalarOrder::linear) {
     if (from_inside || to_inside) cut(segment, ray.t_min, ray.t_max);
@@ -42,9 +42,9 @@ inline void take_scalar(const RectilinearWalker& walker, const Ray& ray, ScalarO
 /// rectilinear_walker.h.
 ///
 /// Within one passage t_in is the t_out before it, bit for bit, and so are the scalars on points;
-/// a passage ends where cells are hidden, and the next one counts as another entry. What lies before
-/// t_min is not walked, and its entries are not counted. A cell-centred field is constant in each
-/// cell, and linear whatever order is asked for. No ray is lost.
+/// a passage ends where cells are hidden, and the next one counts as another entry. What lies
+/// before t_min is not walked, and its entries are not counted. A cell-centred field is constant in
+/// each cell, and linear whatever order is asked for. No ray is lost.
 template <class Visit>
 TraceResult trace(const WalkableRectilinear& mesh, const BoundaryIndex<RectilinearWalker>&,
                   const Ray& ray, Visit&& visit, ScalarOrder order = ScalarOrder::linear) {
