@@ -289,11 +289,12 @@ class ProgressReport {
 std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings& settings) {
   std::vector<std::string> plan;
   const std::string form = scene.form();
-  plan.push_back(
-      fmt::format("walk: {} ({})", form,
-                  form == "tetrahedra" ? "all cells are tetrahedra: the scalar is linear in each"
-                  : form == "grid"     ? "one curvilinear grid: neighbours follow from the indices"
-                                       : "mixed cells: faces and their two sides are stored"));
+  plan.push_back(fmt::format(
+      "walk: {} ({})", form,
+      form == "tetrahedra"         ? "all cells are tetrahedra: the scalar is linear in each"
+      : form == "grid"             ? "one curvilinear grid: neighbours follow from the indices"
+      : form == "rectilinear grid" ? "cuboids between planes: nothing is stored but the scalars"
+                                   : "mixed cells: faces and their two sides are stored"));
   plan.push_back(fmt::format("scalar: {}, {}", scene.field().name,
                              scene.field().association == Association::cell
                                  ? "constant in each cell, as the field is cell-centred"
