@@ -6,6 +6,7 @@
 #include <vtkIdTypeArray.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkRectilinearGrid.h>
 #include <vtkStructuredGrid.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkTypeInt64Array.h>
@@ -147,6 +148,17 @@ void add_fields(const Mesh& mesh, vtkDataSet& data) {
 }
 
 }  // namespace
+
+vtkSmartPointer<vtkDataSet> rectilinear_from(const Mesh& mesh) {
+  const auto grid = vtkSmartPointer<vtkRectilinearGrid>::New();
+  grid->SetDimensions(static_cast<int>(mesh.dimensions[0]), static_cast<int>(mesh.dimensions[1]),
+                      static_cast<int>(mesh.dimensions[2]));
+  grid->SetXCoordinates(lend(mesh.axes[0], 1));
+  grid->SetYCoordinates(lend(mesh.axes[1], 1));
+  grid->SetZCoordinates(lend(mesh.axes[2], 1));
+  add_fields(mesh, *grid);
+  return grid;
+}
 
 vtkSmartPointer<vtkDataSet> structured_from(const Mesh& mesh) {
   const auto grid = vtkSmartPointer<vtkStructuredGrid>::New();

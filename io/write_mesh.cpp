@@ -3,6 +3,7 @@
 #include <vtkDataSet.h>
 #include <vtkDataSetWriter.h>
 #include <vtkSmartPointer.h>
+#include <vtkXMLRectilinearGridWriter.h>
 #include <vtkXMLStructuredGridWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
@@ -13,6 +14,7 @@
 #include "plume/io/vtk_from_mesh.h"
 #include "plume/io/whole_file.h"
 #include "plume/mesh/error.h"
+#include "plume/mesh/rectilinear_axes.h"
 
 namespace plume {
 namespace {
@@ -33,6 +35,8 @@ bool write_data(const std::string& extension, const std::string& file, vtkDataSe
     return write_xml(*vtkSmartPointer<vtkXMLUnstructuredGridWriter>::New(), file, data);
   if (extension == ".vts")
     return write_xml(*vtkSmartPointer<vtkXMLStructuredGridWriter>::New(), file, data);
+  if (extension == ".vtr")
+    return write_xml(*vtkSmartPointer<vtkXMLRectilinearGridWriter>::New(), file, data);
   const auto writer = vtkSmartPointer<vtkDataSetWriter>::New();
   writer->SetFileName(file.c_str());
   writer->SetInputData(&data);
@@ -42,11 +46,16 @@ bool write_data(const std::string& extension, const std::string& file, vtkDataSe
 
 void check_destination(const Mesh& mesh, const std::filesystem::path& file,
                        const std::string& extension) {
-  if (extension != ".vtu" && extension != ".vts" && extension != ".vtk")
-    throw Error(file.string() + ": not a format that can be written; name it .vtu, .vts or .vtk");
+  if (extension != ".vtu" && extension != ".vts" && extension != ".vtr" && extension != ".vtk")
+    throw Error(file.string() +
+                ": not a format that can be written; name it .vtu, .vts, .vtr or .vtk");
   if (extension == ".vts" && !mesh.is_grid())
     throw Error(file.string() +
                 ": .vts holds a structured grid, and the mesh has explicit cells; write .vtu");
+  if (extension == ".vtr" && !mesh.is_rectilinear())
+    throw Error(
+        file.string() + ": .vtr holds a rectilinear grid, and the mesh " +
+        (mesh.is_grid() ? "is a curvilinear one; write .vts" : "has explicit cells; write .vtu"));
   check_writable(file);
 }
 
@@ -58,8 +67,13 @@ void write_mesh(const Mesh& mesh, const std::filesystem::path& file) {
   WholeFile whole(file);
   bool written = false;
   with_vtk_errors(file, {}, "check the free space", [&] {
+    const bool as_axes = mesh.is_rectilinear() && (extension == ".vtr" || extension == ".vtk");
     const bool as_grid = mesh.is_grid() && extension != ".vtu";
-    const auto data = as_grid ? structured_from(mesh) : unstructured_from(mesh);
+    // What VTK is lent must live until it is written.
+    const Mesh given = mesh.is_rectilinear() && !as_axes ? with_points(mesh) : mesh;
+    const auto data = as_axes   ? rectilinear_from(given)
+                      : as_grid ? structured_from(given)
+                                : unstructured_from(given);
     written = write_data(extension, whole.path().string(), *data);
   });
   if (!written)
