@@ -15,6 +15,9 @@ namespace plume {
 /// A vtkRectilinearGrid. Requires a rectilinear grid.
 vtkSmartPointer<vtkDataSet> rectilinear_from(const Mesh& mesh);
 
+/// A vtkImageData between the ends of the axes. Requires a regular grid (see uneven_place()).
+vtkSmartPointer<vtkDataSet> image_from(const Mesh& mesh);
+
 /// A vtkStructuredGrid. Requires a curvilinear grid.
 vtkSmartPointer<vtkDataSet> structured_from(const Mesh& mesh);
 

@@ -3,10 +3,13 @@
 #include <vtkDataSet.h>
 #include <vtkDataSetWriter.h>
 #include <vtkSmartPointer.h>
+#include <vtkXMLImageDataWriter.h>
 #include <vtkXMLRectilinearGridWriter.h>
 #include <vtkXMLStructuredGridWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
+#include <algorithm>
+#include <array>
 #include <string>
 
 #include "plume/io/read_file.h"
@@ -35,6 +38,8 @@ bool write_data(const std::string& extension, const std::string& file, vtkDataSe
     return write_xml(*vtkSmartPointer<vtkXMLUnstructuredGridWriter>::New(), file, data);
   if (extension == ".vts")
     return write_xml(*vtkSmartPointer<vtkXMLStructuredGridWriter>::New(), file, data);
+  if (extension == ".vti")
+    return write_xml(*vtkSmartPointer<vtkXMLImageDataWriter>::New(), file, data);
   if (extension == ".vtr")
     return write_xml(*vtkSmartPointer<vtkXMLRectilinearGridWriter>::New(), file, data);
   const auto writer = vtkSmartPointer<vtkDataSetWriter>::New();
@@ -46,17 +51,37 @@ bool write_data(const std::string& extension, const std::string& file, vtkDataSe
 
 void check_destination(const Mesh& mesh, const std::filesystem::path& file,
                        const std::string& extension) {
-  if (extension != ".vtu" && extension != ".vts" && extension != ".vtr" && extension != ".vtk")
+  constexpr std::array kExtensions{".vtu", ".vts", ".vtr", ".vti", ".vtk"};
+  if (std::find(kExtensions.begin(), kExtensions.end(), extension) == kExtensions.end())
     throw Error(file.string() +
-                ": not a format that can be written; name it .vtu, .vts, .vtr or .vtk");
+                ": not a format that can be written; name it .vtu, .vts, .vtr, .vti or .vtk");
   if (extension == ".vts" && !mesh.is_grid())
     throw Error(file.string() +
                 ": .vts holds a structured grid, and the mesh has explicit cells; write .vtu");
-  if (extension == ".vtr" && !mesh.is_rectilinear())
+  if (mesh.is_rectilinear()) try {
+      check_axes(mesh);
+    } catch (const Error& error) {
+      throw Error(file.string() + ": " + error.what());
+    }
+  const bool holds_axes = extension == ".vtr" || extension == ".vti";
+  if (holds_axes && !mesh.is_rectilinear())
     throw Error(
-        file.string() + ": .vtr holds a rectilinear grid, and the mesh " +
+        file.string() + ": " + extension + " holds a rectilinear grid, and the mesh " +
         (mesh.is_grid() ? "is a curvilinear one; write .vts" : "has explicit cells; write .vtu"));
+  if (extension == ".vti")
+    for (std::size_t a = 0; a < 3; ++a)
+      if (const auto place = uneven_place(mesh.axes[a]))
+        throw Error(file.string() + ": .vti holds a regular grid, and the " + "xyz"[a] +
+                    " coordinates are not equidistant at " + std::to_string(*place) +
+                    "; write .vtr");
   check_writable(file);
+}
+
+vtkSmartPointer<vtkDataSet> data_for(const Mesh& mesh, const std::string& extension) {
+  if (extension == ".vtu") return unstructured_from(mesh);
+  if (extension == ".vti") return image_from(mesh);
+  if (mesh.is_rectilinear()) return rectilinear_from(mesh);
+  return mesh.is_grid() ? structured_from(mesh) : unstructured_from(mesh);
 }
 
 }  // namespace
@@ -67,13 +92,10 @@ void write_mesh(const Mesh& mesh, const std::filesystem::path& file) {
   WholeFile whole(file);
   bool written = false;
   with_vtk_errors(file, {}, "check the free space", [&] {
-    const bool as_axes = mesh.is_rectilinear() && (extension == ".vtr" || extension == ".vtk");
-    const bool as_grid = mesh.is_grid() && extension != ".vtu";
-    // What VTK is lent must live until it is written.
-    const Mesh given = mesh.is_rectilinear() && !as_axes ? with_points(mesh) : mesh;
-    const auto data = as_axes   ? rectilinear_from(given)
-                      : as_grid ? structured_from(given)
-                                : unstructured_from(given);
+    // VTK is lent the mesh's arrays, so what is lent lives until it is written.
+    const bool points_wanted = extension == ".vtu" || extension == ".vts";
+    const Mesh lent = mesh.is_rectilinear() && points_wanted ? with_points(mesh) : mesh;
+    const auto data = data_for(lent, extension);
     written = write_data(extension, whole.path().string(), *data);
   });
   if (!written)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -79,6 +80,19 @@ Bounds check_axes(const Mesh& mesh) {
     bounds.high[a] = std::max(first, last);
   }
   return bounds;
+}
+
+std::optional<std::size_t> uneven_place(const Array& axis) {
+  const std::size_t last = axis.size() - 1;
+  const double low = axis.at<double>(0), high = axis.at<double>(last);
+  const double unit = axis.type() == Array::Type::float32 ? std::numeric_limits<float>::epsilon()
+                                                          : std::numeric_limits<double>::epsilon();
+  const double tolerance = 4 * unit * std::max(std::abs(low), std::abs(high));
+  const double spacing = (high - low) / static_cast<double>(last);
+  for (std::size_t i = 0; i <= last; ++i)
+    if (std::abs(axis.at<double>(i) - (low + static_cast<double>(i) * spacing)) > tolerance)
+      return i;
+  return std::nullopt;
 }
 
 Mesh with_points(const Mesh& rectilinear) {
