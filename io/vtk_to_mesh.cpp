@@ -22,7 +22,6 @@
 #include "plume/io/vtk_arrays.h"
 #include "plume/io/vtk_cells.h"
 #include "plume/mesh/error.h"
-#include "plume/mesh/rectilinear_axes.h"
 
 namespace plume {
 namespace {
@@ -205,8 +204,6 @@ Mesh mesh_from_vtk(vtkDataObject& data, const std::filesystem::path& file,
   const bool one_block = blocks.size() == 1;
   report(census, one_block && blocks[0].is_grid(), file, notice);
   if (one_block) return std::move(blocks[0]);
-  for (Mesh& block : blocks)
-    if (block.is_rectilinear()) block = with_points(block);
   return append_blocks(std::move(blocks), options.merge_points, file, notice);
 }
 

@@ -23,7 +23,7 @@ std::optional<std::size_t> uneven_place(const Array& axis);
 
 /// The same grid as a curvilinear one: 3 coordinates a point, float where all axes are, else
 /// double; fields and hidden cells are shared. For whatever has no form for rectilinear grids.
-/// Requires check_axes().
+/// Requires as many coordinates along each axis as `dimensions` says.
 Mesh with_points(const Mesh& rectilinear);
 
 }  // namespace plume

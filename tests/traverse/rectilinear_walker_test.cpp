@@ -391,6 +391,49 @@ TEST(RectilinearWalker, SeesNoHiddenCell) {
   }
 }
 
+// Widths from 1e-300 to 1e16 beside each other: planes at the same place as far as a ray can tell.
+TEST(RectilinearWalker, PassesCellsOfAnyWidths) {
+  Mesh mesh = rectilinear({"", {7, 7, 7}});
+  mesh.axes[0] = Array::own(std::vector<double>{-1, 0, 1e-300, 1e-16, 1, 1.5, 2, 1e16});
+  mesh.axes[1] = Array::own(std::vector<double>{1e16, 1, 1e-16, 1e-300, 0, -1e-300, -1e-16, -1});
+  mesh.axes[2] = Array::own(std::vector<double>{5e-324, 1e-323, 1e-322, 1e-320, 1, 2, 3, 1e3});
+  const Bounds bounds = check_structure(mesh);
+  const Traced traced(mesh);
+  const WalkableRectilinear& grid = traced.mesh;
+  std::mt19937_64 random(3);
+  auto uniform = [&] { return static_cast<double>(random() >> 11) * 0x1p-53; };
+  std::size_t seen = 0;
+  for (int i = 0; i < 20000; ++i) {
+    const Place from{6 * uniform() - 3, 6 * uniform() - 3, 6 * uniform() - 3};
+    Place to{uniform() - 0.5, uniform() - 0.5, uniform() - 0.5};
+    if (i % 3 == 0)
+      for (std::size_t a = 0; a < 3; ++a) to[a] = mesh.axes[a].at<double>(1 + random() % 6);
+    const Ray ray = whole(ray_towards(from, to));
+    for (const ScalarOrder order : {ScalarOrder::linear, ScalarOrder::cubic}) {
+      const Walk walk = traced(ray, order);
+      ASSERT_EQ(walk.result.end, WalkEnd::left) << i;
+      double sum = 0;
+      for (std::size_t s = 0; s < walk.segments.size(); ++s, ++seen) {
+        const Segment& segment = walk.segments[s];
+        ASSERT_LE(segment.t_in, segment.t_out) << i;
+        sum += segment.t_out - segment.t_in;
+        for (const float value : {segment.s_in, segment.s_out, segment.inner[0], segment.inner[1]})
+          ASSERT_TRUE(value >= 0 && value <= 1) << i << ' ' << value;
+        if (s == 0) continue;
+        ASSERT_EQ(segment.t_in, walk.segments[s - 1].t_out) << i;
+        bool adjacent = false;
+        for (std::uint32_t face = 0; face < 6; ++face)
+          adjacent = adjacent || grid.neighbor(walk.segments[s - 1].cell, face) == segment.cell;
+        ASSERT_TRUE(adjacent) << i;
+      }
+      const auto span = span_by_rule(bounds, ray);
+      const double chord = std::max(0.0, span[1] - span[0]);
+      ASSERT_NEAR(sum, chord, 1e-12 * std::max(std::abs(span[0]), std::abs(span[1]))) << i;
+    }
+  }
+  EXPECT_GT(seen, 10000u);
+}
+
 TEST(RectilinearWalker, MeetsNothingWithoutADirection) {
   const Traced traced(rectilinear({"", {2, 2, 2}}));
   const double nan = std::numeric_limits<double>::quiet_NaN();
