@@ -3,7 +3,7 @@
 
 namespace plume::bench {
 
-/// As such, a regular grid is walked at least so many times as fast as hexahedra.
+/// As such, a regular grid is walked at least so many times as fast as hexahedra, linear as they.
 inline constexpr double kLeastRegularRatio = 2;
 
 /// Registers walk/regular/<cells along an edge>/<linear, quadratic, cubic> with Google Benchmark:
