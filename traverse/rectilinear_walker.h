@@ -88,10 +88,10 @@ class RectilinearWalker {
     cell_ += axis.cell_step;
     near_ += axis.point_step;
     t_in_ = axis.t_behind = axis.t_next;
-    axis.plane += axis.step;
+    axis.t_next = axis.t_after;
     axis.per_width += axis.step;
-    axis.t_next = (*axis.plane - axis.origin) * axis.per_direction;
     axis.rate = axis.speed * *axis.per_width;
+    look_ahead(axis);
     entry_ = exit_;
     find_exit();
   }
@@ -102,13 +102,15 @@ class RectilinearWalker {
   // One axis as the ray sees it: planes, cells and points are counted along the ray.
   struct Axis {
     double t_next;         // where the ray crosses the plane ahead
+    double t_after;        // and the one after that
     double t_behind;       // where it has crossed the one behind; 0 for an axis across the ray
     double rate;           // weight per t; 0 for an axis across the ray
     double base;           // weight of an axis across the ray, else 0
     double origin;         // the ray's origin
     double per_direction;  // 1 / direction; infinite for an axis across the ray
     double speed;          // |direction|
-    const double* plane;   // the coordinate of the plane ahead
+    const double* plane;   // the coordinate of the plane after the one ahead, or of the last
+    const double* last;
     const double* per_width;
     std::ptrdiff_t step;  // from a plane to the next in memory: 1 or -1
     std::uint32_t planes;
@@ -152,6 +154,7 @@ class RectilinearWalker {
     const bool forwards = up == given.ascending();
     axis.step = forwards ? 1 : -1;
     axis.plane = given.coordinates.data() + (forwards ? 0 : axis.planes - 1);
+    axis.last = given.coordinates.data() + (forwards ? axis.planes - 1 : 0);
     axis.per_width = given.per_width.data() + (forwards ? 0 : axis.planes - 2);
     axis.cell_step = axis.point_step = 1;
     for (std::size_t b = 0; b < a; ++b) {
@@ -188,10 +191,18 @@ class RectilinearWalker {
     axis.rate = axis.speed * *axis.per_width;
     axis.base = axis.across ? std::min(1.0, (axis.origin - *axis.plane) * *axis.per_width) : 0;
     axis.plane += axis.step;
+    look_ahead(axis);
     // Where the ray goes down in memory, its first point and cell are the last ones there.
     const bool forwards = axis.step > 0;
     near_ += axis.point_step * (crossed - (forwards ? 0 : axis.planes - 1));
     cell_ += axis.cell_step * (crossed - (forwards ? 0 : axis.planes - 2));
+  }
+
+  // Computes where the ray crosses the plane after the next one, so that nobody waits for it when
+  // the next one is crossed. Behind the last plane there is none, and nobody asks.
+  static void look_ahead(Axis& axis) {
+    axis.plane += axis.plane == axis.last ? 0 : axis.step;
+    axis.t_after = (*axis.plane - axis.origin) * axis.per_direction;
   }
 
   static double behind(const Axis& axis) { return axis.across ? -kInfinity : axis.t_behind; }
