@@ -30,6 +30,11 @@ Mesh box_tetrahedra(const GenerateOptions& options);
 /// 32).
 Mesh box_hexahedra(const GenerateOptions& options);
 
+/// The unit cube as a rectilinear grid of size^3 cuboids (default 32): interior planes are
+/// displaced by up to `jitter` edges, at most 0.45, so that they keep their order; without jitter a
+/// regular grid. Coordinates in double precision. Fields as in box_tetrahedra().
+Mesh box_rectilinear(const GenerateOptions& options);
+
 /// The unit cube, cut into size^3 cubes (default 24) of two wedges each; they share the diagonal
 /// (0, 0)-(1, 1) of the faces of constant z. Points and point fields as in box_tetrahedra().
 Mesh box_wedges(const GenerateOptions& options);

@@ -13,6 +13,7 @@ const std::vector<Generator>& generators() {
       {"blunt-body", "blunt fin in a supersonic flow, curvilinear", datasets::blunt_body},
       {"box-tetrahedra", "unit cube of tetrahedra", datasets::box_tetrahedra},
       {"box-hexahedra", "unit cube of hexahedra, curvilinear", datasets::box_hexahedra},
+      {"box-rectilinear", "unit cube of cuboids, rectilinear", datasets::box_rectilinear},
       {"box-wedges", "unit cube of wedges", datasets::box_wedges},
       {"box-mixed", "unit cube of hexahedra, wedges, pyramids and tetrahedra", datasets::box_mixed},
       {"box-polyhedra", "unit cube as a honeycomb of polyhedra", datasets::box_polyhedra},

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "plume/datasets/generate.h"
+#include "plume/mesh/explicit_cells.h"
 
 namespace plume::datasets {
 
@@ -85,13 +86,8 @@ void append_wedges(const std::array<std::int32_t, 8>& corners,
 template <class F>
 void add_point_field(Mesh& mesh, std::string name, F&& f) {
   std::vector<float> values(mesh.point_count());
-  mesh.points.visit([&](auto points) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const Point p{static_cast<double>(points[3 * i]), static_cast<double>(points[3 * i + 1]),
-                    static_cast<double>(points[3 * i + 2])};
-      values[i] = static_cast<float>(f(p));
-    }
-  });
+  for (std::size_t i = 0; i < values.size(); ++i)
+    values[i] = static_cast<float>(f(point_at(mesh, i)));
   mesh.fields.push_back({std::move(name), Association::point, 1, Array::own(std::move(values))});
 }
 
@@ -104,7 +100,8 @@ inline double distance(const Point& a, const Point& b) {
 void add_box_fields(Mesh& mesh, const Point& center = {0.5, 0.5, 0.5});
 
 /// Adds the cell field `cell_radius`: distance of the mean of the cell's points to (1/2, 1/2, 1/2).
-/// For a grid, or for explicit cells of one type with a fixed number of points and 32-bit ids.
+/// For a curvilinear grid, or for explicit cells of one type with a fixed number of points and
+/// 32-bit ids.
 void add_cell_radius(Mesh& mesh);
 
 /// Cells of one type with a fixed number of points.

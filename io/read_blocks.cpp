@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "plume/io/read_point_merge.h"
+#include "plume/mesh/rectilinear_axes.h"
 
 namespace plume {
 namespace {
@@ -220,6 +221,8 @@ Array join_field(const std::vector<const Field*>& parts, const std::vector<Block
 
 Mesh append_blocks(std::vector<Mesh> blocks, bool merge_points, const std::filesystem::path& file,
                    const Notice& notice) {
+  for (Mesh& block : blocks)
+    if (block.is_rectilinear()) block = with_points(block);
   Mesh mesh;
   PointIds ids;
   const bool any_double = std::any_of(blocks.begin(), blocks.end(), [](const Mesh& block) {

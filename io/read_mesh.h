@@ -32,9 +32,10 @@ using Notice = std::function<void(const std::string&)>;
 /// (.e .ex2 .exo .exii .g where it is no Plot3D), EnSight Gold (.case), OpenFOAM (.foam, or a case
 /// directory), CGNS (.cgns), Fluent (.cas, .msh).
 ///
-/// One block of a structured grid stays a grid (`Mesh::dimensions`); several blocks, and everything
-/// else, become explicit cells. Cells that are not volumes are dropped and counted in a notice,
-/// quadratic cells are represented by their corners.
+/// One block of a structured grid stays a grid (`Mesh::dimensions`), one of a rectilinear grid or
+/// an image a rectilinear one (`Mesh::axes`) unless the image is turned; several blocks, and
+/// everything else, become explicit cells. Cells that are not volumes are dropped and counted in a
+/// notice, quadratic cells are represented by their corners.
 ///
 /// Throws Error where the file is missing, truncated, of no known format, or without volume cells.
 Mesh read_mesh(const std::filesystem::path& file, const ReadOptions& options = {},

@@ -4,8 +4,10 @@
 #include <vtkCellData.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkIdTypeArray.h>
+#include <vtkImageData.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
+#include <vtkRectilinearGrid.h>
 #include <vtkStructuredGrid.h>
 #include <vtkTypeInt32Array.h>
 #include <vtkTypeInt64Array.h>
@@ -147,6 +149,34 @@ void add_fields(const Mesh& mesh, vtkDataSet& data) {
 }
 
 }  // namespace
+
+vtkSmartPointer<vtkDataSet> rectilinear_from(const Mesh& mesh) {
+  const auto grid = vtkSmartPointer<vtkRectilinearGrid>::New();
+  grid->SetDimensions(static_cast<int>(mesh.dimensions[0]), static_cast<int>(mesh.dimensions[1]),
+                      static_cast<int>(mesh.dimensions[2]));
+  grid->SetXCoordinates(lend(mesh.axes[0], 1));
+  grid->SetYCoordinates(lend(mesh.axes[1], 1));
+  grid->SetZCoordinates(lend(mesh.axes[2], 1));
+  add_fields(mesh, *grid);
+  return grid;
+}
+
+vtkSmartPointer<vtkDataSet> image_from(const Mesh& mesh) {
+  const auto image = vtkSmartPointer<vtkImageData>::New();
+  int dimensions[3];
+  double origin[3], spacing[3];
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::size_t last = mesh.axes[a].size() - 1;
+    dimensions[a] = static_cast<int>(mesh.dimensions[a]);
+    origin[a] = mesh.axes[a].at<double>(0);
+    spacing[a] = (mesh.axes[a].at<double>(last) - origin[a]) / static_cast<double>(last);
+  }
+  image->SetDimensions(dimensions);
+  image->SetOrigin(origin);
+  image->SetSpacing(spacing);
+  add_fields(mesh, *image);
+  return image;
+}
 
 vtkSmartPointer<vtkDataSet> structured_from(const Mesh& mesh) {
   const auto grid = vtkSmartPointer<vtkStructuredGrid>::New();

@@ -12,10 +12,16 @@ namespace plume {
 /// Both read the mesh's arrays where they are, so the mesh must outlive what they return. Hidden
 /// cells are marked in VTK's ghost array.
 
-/// A vtkStructuredGrid. Requires a grid.
+/// A vtkRectilinearGrid. Requires a rectilinear grid.
+vtkSmartPointer<vtkDataSet> rectilinear_from(const Mesh& mesh);
+
+/// A vtkImageData between the ends of the axes. Requires a regular grid (see uneven_place()).
+vtkSmartPointer<vtkDataSet> image_from(const Mesh& mesh);
+
+/// A vtkStructuredGrid. Requires a curvilinear grid.
 vtkSmartPointer<vtkDataSet> structured_from(const Mesh& mesh);
 
-/// A vtkUnstructuredGrid; a grid's cells become hexahedra.
+/// A vtkUnstructuredGrid; a curvilinear grid's cells become hexahedra. Requires points.
 vtkSmartPointer<vtkDataSet> unstructured_from(const Mesh& mesh);
 
 }  // namespace plume

@@ -3,6 +3,7 @@
 #include <vtkCompositeDataIterator.h>
 #include <vtkCompositeDataSet.h>
 #include <vtkImageData.h>
+#include <vtkMatrix3x3.h>
 #include <vtkPoints.h>
 #include <vtkRectilinearGrid.h>
 #include <vtkSmartPointer.h>
@@ -10,6 +11,9 @@
 #include <vtkUnstructuredGrid.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -36,47 +40,59 @@ std::vector<vtkSmartPointer<vtkDataSet>> data_sets_in(vtkDataObject& data) {
   return found;
 }
 
-Array image_points(vtkImageData& image) {
+// Coordinates of a grid's points: along its axes where that is enough, else of each point.
+struct Coordinates {
+  std::array<Array, 3> axes;
+  Array points;
+};
+
+// Whether i, j and k run along x, y and z, upwards or downwards.
+bool runs_along_axes(vtkMatrix3x3& direction) {
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column)
+      if (std::abs(direction.GetElement(row, column)) != (row == column ? 1 : 0)) return false;
+  return true;
+}
+
+// GetPoint knows about the origin, the spacing, the extent and the direction matrix.
+Coordinates image_coordinates(vtkImageData& image, const int (&dimensions)[3]) {
+  Coordinates coordinates;
+  double point[3];
+  if (runs_along_axes(*image.GetDirectionMatrix())) {
+    vtkIdType step = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      std::vector<double> along;
+      for (int i = 0; i < dimensions[axis]; ++i) {
+        image.GetPoint(i * step, point);
+        along.push_back(point[axis]);
+      }
+      coordinates.axes[static_cast<std::size_t>(axis)] = Array::own(std::move(along));
+      step *= dimensions[axis];
+    }
+    return coordinates;
+  }
   const auto count = static_cast<std::size_t>(image.GetNumberOfPoints());
   std::vector<double> points(3 * count);
-  // GetPoint knows about the origin, the extent and the direction matrix.
   for (std::size_t i = 0; i < count; ++i)
     image.GetPoint(static_cast<vtkIdType>(i), points.data() + 3 * i);
-  return Array::own(std::move(points));
+  coordinates.points = Array::own(std::move(points));
+  return coordinates;
 }
 
-template <class T>
-Array rectilinear_points(vtkRectilinearGrid& grid) {
+Coordinates rectilinear_coordinates(vtkRectilinearGrid& grid, const int (&dimensions)[3],
+                                    const std::filesystem::path& file) {
   vtkDataArray* const axes[3] = {grid.GetXCoordinates(), grid.GetYCoordinates(),
                                  grid.GetZCoordinates()};
-  int dimensions[3];
-  grid.GetDimensions(dimensions);
-  std::vector<T> points;
-  points.reserve(3 * static_cast<std::size_t>(grid.GetNumberOfPoints()));
-  for (int k = 0; k < dimensions[2]; ++k)
-    for (int j = 0; j < dimensions[1]; ++j)
-      for (int i = 0; i < dimensions[0]; ++i) {
-        points.push_back(static_cast<T>(axes[0]->GetComponent(i, 0)));
-        points.push_back(static_cast<T>(axes[1]->GetComponent(j, 0)));
-        points.push_back(static_cast<T>(axes[2]->GetComponent(k, 0)));
-      }
-  return Array::own(std::move(points));
-}
-
-Array rectilinear_points(vtkRectilinearGrid& grid, const std::filesystem::path& file) {
-  vtkDataArray* const axes[3] = {grid.GetXCoordinates(), grid.GetYCoordinates(),
-                                 grid.GetZCoordinates()};
-  int dimensions[3];
-  grid.GetDimensions(dimensions);
-  bool is_float = true;
-  for (int axis = 0; axis < 3; ++axis) {
-    if (!axes[axis] || axes[axis]->GetNumberOfTuples() != dimensions[axis])
+  Coordinates coordinates;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!axes[axis] || axes[axis]->GetNumberOfTuples() != dimensions[axis] ||
+        axes[axis]->GetNumberOfComponents() != 1)
       throw Error(file.string() + ": " + "xyz"[axis] + std::string(" coordinates do not fit the ") +
                   std::to_string(dimensions[axis]) +
                   " points along that axis; the file is damaged");
-    is_float = is_float && axes[axis]->GetDataType() == VTK_FLOAT;
+    coordinates.axes[axis] = to_coordinates(axes[axis]);
   }
-  return is_float ? rectilinear_points<float>(grid) : rectilinear_points<double>(grid);
+  return coordinates;
 }
 
 Array point_set_points(vtkPointSet& set) {
@@ -89,7 +105,7 @@ void count_flat_cells(vtkDataSet& data, CellCensus& census) {
     ++census.dropped[data.GetCellType(cell)];
 }
 
-std::optional<Mesh> grid_from(vtkDataSet& data, const int (&dimensions)[3], Array points,
+std::optional<Mesh> grid_from(vtkDataSet& data, const int (&dimensions)[3], Coordinates coordinates,
                               const std::filesystem::path& file, const Notice& notice,
                               CellCensus& census) {
   if (*std::min_element(dimensions, dimensions + 3) < 2) {
@@ -98,13 +114,15 @@ std::optional<Mesh> grid_from(vtkDataSet& data, const int (&dimensions)[3], Arra
   }
   Mesh mesh;
   std::copy(dimensions, dimensions + 3, mesh.dimensions.begin());
-  std::size_t expected = 3;
-  for (const int n : dimensions) expected *= static_cast<std::size_t>(n);
-  if (points.size() != expected)
-    throw Error(file.string() + ": " + std::to_string(points.size() / 3) +
-                " points for a grid of " + std::to_string(expected / 3) +
+  mesh.axes = std::move(coordinates.axes);
+  mesh.points = std::move(coordinates.points);
+  const std::size_t expected =
+      std::accumulate(dimensions, dimensions + 3, std::size_t{1},
+                      [](std::size_t count, int n) { return count * static_cast<std::size_t>(n); });
+  if (mesh.point_count() != expected)
+    throw Error(file.string() + ": " + std::to_string(mesh.point_count()) +
+                " points for a grid of " + std::to_string(expected) +
                 "; the file is damaged or truncated");
-  mesh.points = std::move(points);
   auto hidden = hidden_cells_of(data);
   const auto hidden_count = std::count(hidden.begin(), hidden.end(), 1);
   census.hidden += hidden_count;
@@ -137,15 +155,16 @@ std::optional<Mesh> block_from(vtkDataSet& data, const std::filesystem::path& fi
     return unstructured_from(*grid, file, notice, census);
   if (auto* const grid = vtkStructuredGrid::SafeDownCast(&data)) {
     grid->GetDimensions(dimensions);
-    return grid_from(data, dimensions, point_set_points(*grid), file, notice, census);
+    return grid_from(data, dimensions, {{}, point_set_points(*grid)}, file, notice, census);
   }
   if (auto* const grid = vtkRectilinearGrid::SafeDownCast(&data)) {
     grid->GetDimensions(dimensions);
-    return grid_from(data, dimensions, rectilinear_points(*grid, file), file, notice, census);
+    return grid_from(data, dimensions, rectilinear_coordinates(*grid, dimensions, file), file,
+                     notice, census);
   }
   if (auto* const image = vtkImageData::SafeDownCast(&data)) {
     image->GetDimensions(dimensions);
-    return grid_from(data, dimensions, image_points(*image), file, notice, census);
+    return grid_from(data, dimensions, image_coordinates(*image, dimensions), file, notice, census);
   }
   count_flat_cells(data, census);
   return std::nullopt;

@@ -289,11 +289,12 @@ class ProgressReport {
 std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings& settings) {
   std::vector<std::string> plan;
   const std::string form = scene.form();
-  plan.push_back(
-      fmt::format("walk: {} ({})", form,
-                  form == "tetrahedra" ? "all cells are tetrahedra: the scalar is linear in each"
-                  : form == "grid"     ? "one curvilinear grid: neighbours follow from the indices"
-                                       : "mixed cells: faces and their two sides are stored"));
+  plan.push_back(fmt::format(
+      "walk: {} ({})", form,
+      form == "tetrahedra"         ? "all cells are tetrahedra: the scalar is linear in each"
+      : form == "grid"             ? "one curvilinear grid: neighbours follow from the indices"
+      : form == "rectilinear grid" ? "cuboids between planes: nothing is stored but the scalars"
+                                   : "mixed cells: faces and their two sides are stored"));
   plan.push_back(fmt::format("scalar: {}, {}", scene.field().name,
                              scene.field().association == Association::cell
                                  ? "constant in each cell, as the field is cell-centred"
@@ -328,7 +329,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   Frame frame(scene, camera, effective);
   RenderResult result;
   result.statistics.plan = describe_plan(scene, settings);
-  if (std::string(scene.form()) != "cells")
+  if (const std::string form = scene.form(); form == "tetrahedra" || form == "grid")
     result.statistics.plan.push_back(
         frame.by_packets() ? fmt::format("rays: in packets, {}", packet_instruction_set())
                            : "rays: one by one (packets serve the volume mode by the closed form, "
@@ -365,7 +366,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   std::visit(
       [&](const auto& walkable, const auto& chosen) {
         using Form = typename std::decay_t<decltype(*walkable)>::Walker;
-        if constexpr (!std::is_same_v<Form, CellWalker>) {
+        if constexpr (std::is_same_v<Form, TetWalker> || std::is_same_v<Form, GridWalker>) {
           if (frame.by_packets()) {
             tbb::enumerable_thread_specific<PacketTile<Form>> packets([&] {
               return PacketTile<Form>(walkable->mesh, walkable->boundary, pieces,

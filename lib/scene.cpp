@@ -23,6 +23,20 @@ bool all_tetrahedra(const Mesh& mesh) {
   });
 }
 
+template <class Walkable>
+std::size_t point_count_of(const Walkable& mesh) {
+  return mesh.points.size();
+}
+std::size_t point_count_of(const WalkableRectilinear& mesh) { return mesh.point_count(); }
+
+template <class Walkable>
+std::size_t boundary_face_count_of(const Walkable& mesh) {
+  return mesh.boundary.size();
+}
+std::size_t boundary_face_count_of(const WalkableRectilinear& mesh) {
+  return mesh.boundary_face_count();
+}
+
 // See Scene::default_unit_distance().
 double fitted_unit_distance(const Scene& scene) {
   constexpr int kAcross = 12;  // rays along each side, from each of three directions
@@ -69,7 +83,10 @@ Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_un
     found.clear();
     body_->walkable = std::move(walkable);
   };
-  if (mesh.is_grid())
+  if (mesh.is_rectilinear())
+    take(std::make_unique<Walkable<RectilinearWalker>>(make_walkable_rectilinear(
+        mesh, {field.name, field.association, std::move(body_->field.values)})));
+  else if (mesh.is_grid())
     take(std::make_unique<Walkable<GridWalker>>(make_walkable_grid(mesh, field, body_->bounds)));
   else if (all_tetrahedra(mesh))
     take(std::make_unique<Walkable<TetWalker>>(
@@ -101,7 +118,7 @@ void Scene::set_transfer_function(TransferFunction transfer_function) {
 }
 
 const char* Scene::form() const {
-  constexpr const char* kForms[] = {"tetrahedra", "grid", "cells"};
+  constexpr const char* kForms[] = {"tetrahedra", "grid", "cells", "rectilinear grid"};
   return kForms[body_->walkable.index()];
 }
 
@@ -110,11 +127,11 @@ std::size_t Scene::cell_count() const {
 }
 
 std::size_t Scene::point_count() const {
-  return std::visit([](const auto& w) { return w->mesh.points.size(); }, body_->walkable);
+  return std::visit([](const auto& w) { return point_count_of(w->mesh); }, body_->walkable);
 }
 
 std::size_t Scene::boundary_face_count() const {
-  return std::visit([](const auto& w) { return w->mesh.boundary.size(); }, body_->walkable);
+  return std::visit([](const auto& w) { return boundary_face_count_of(w->mesh); }, body_->walkable);
 }
 
 std::size_t Scene::connected_part_count() const {

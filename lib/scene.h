@@ -42,7 +42,7 @@ class Scene {
   const ScalarField& field() const;
   /// What was found on the way, in words for users.
   const std::vector<Finding>& findings() const;
-  /// "tetrahedra", "grid" or "cells": the form in which the mesh is walked.
+  /// "tetrahedra", "grid", "cells" or "rectilinear grid": the form in which the mesh is walked.
   const char* form() const;
   std::size_t cell_count() const;
   std::size_t point_count() const;

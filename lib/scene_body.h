@@ -6,6 +6,7 @@
 
 #include "plume/lib/scene.h"
 #include "plume/traverse/trace.h"
+#include "plume/traverse/trace_rectilinear.h"
 
 namespace plume {
 
@@ -24,7 +25,7 @@ struct Walkable {
 
 struct Scene::Body {
   std::variant<std::unique_ptr<Walkable<TetWalker>>, std::unique_ptr<Walkable<GridWalker>>,
-               std::unique_ptr<Walkable<CellWalker>>>
+               std::unique_ptr<Walkable<CellWalker>>, std::unique_ptr<Walkable<RectilinearWalker>>>
       walkable;
   Bounds bounds;
   ScalarField field;

@@ -30,17 +30,9 @@ class Sets {
   std::size_t count_;
 };
 
-}  // namespace
-
-std::size_t connected_parts(const WalkableTets& mesh) {
-  Sets sets(mesh.cells.size());
-  for (std::uint32_t c = 0; c < mesh.cells.size(); ++c)
-    for (const WalkableTets::Link& link : mesh.cells[c])
-      if (link.cell != kNone) sets.join(c, link.cell);
-  return sets.count();
-}
-
-std::size_t connected_parts(const WalkableGrid& mesh) {
+// A grid of either kind: visible cells are joined with their neighbours in positive direction.
+template <class Grid>
+std::size_t parts_of_grid(const Grid& mesh) {
   const auto cells = static_cast<std::uint32_t>(mesh.cell_count());
   Sets sets(cells);
   std::size_t hidden = 0;
@@ -54,6 +46,22 @@ std::size_t connected_parts(const WalkableGrid& mesh) {
         sets.join(c, neighbor);
   }
   return sets.count() - hidden;
+}
+
+}  // namespace
+
+std::size_t connected_parts(const WalkableTets& mesh) {
+  Sets sets(mesh.cells.size());
+  for (std::uint32_t c = 0; c < mesh.cells.size(); ++c)
+    for (const WalkableTets::Link& link : mesh.cells[c])
+      if (link.cell != kNone) sets.join(c, link.cell);
+  return sets.count();
+}
+
+std::size_t connected_parts(const WalkableGrid& mesh) { return parts_of_grid(mesh); }
+
+std::size_t connected_parts(const WalkableRectilinear& mesh) {
+  return mesh.hidden.empty() ? 1 : parts_of_grid(mesh);
 }
 
 std::size_t connected_parts(const WalkableCells& mesh) {

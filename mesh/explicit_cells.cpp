@@ -75,6 +75,12 @@ void CellReader::faces(std::size_t cell, std::vector<std::uint32_t>& sizes,
 }
 
 std::array<double, 3> point_at(const Mesh& mesh, std::size_t point) {
+  if (mesh.is_rectilinear()) {
+    const auto ni = static_cast<std::size_t>(mesh.dimensions[0]);
+    const auto nj = static_cast<std::size_t>(mesh.dimensions[1]);
+    return {mesh.axes[0].at<double>(point % ni), mesh.axes[1].at<double>(point / ni % nj),
+            mesh.axes[2].at<double>(point / ni / nj)};
+  }
   return mesh.points.visit([point](auto values) {
     return std::array<double, 3>{static_cast<double>(values[3 * point]),
                                  static_cast<double>(values[3 * point + 1]),

@@ -52,6 +52,13 @@ bool is_volume_cell_type(int vtk_type) {
   return (vtk_type >= 10 && vtk_type <= 16) || vtk_type == 42;
 }
 
+std::size_t Mesh::point_count() const {
+  if (!is_rectilinear()) return points.size() / 3;
+  std::size_t count = 1;
+  for (const auto n : dimensions) count *= n > 0 ? static_cast<std::size_t>(n) : 0;
+  return count;
+}
+
 std::size_t Mesh::cell_count() const {
   if (is_grid()) {
     std::size_t count = 1;

@@ -50,24 +50,31 @@ struct Cells {
   Array polyhedron_faces;
 };
 
-/// A mesh is either a curvilinear grid of hexahedra (`dimensions` set, no connectivity stored) or
-/// a list of explicit cells (`cells`). Nothing is checked here; see validate.h.
+/// A mesh is one of three things: a rectilinear grid (`dimensions` and `axes` set, neither points
+/// nor connectivity stored; a regular grid is one whose coordinates are equidistant), a curvilinear
+/// grid of hexahedra (`dimensions` and `points` set, no connectivity stored), or a list of explicit
+/// cells (`points` and `cells`). Nothing is checked here; see validate.h.
 struct Mesh {
-  /// x, y, z of each point, interleaved; float or double. Length unit: the user's.
+  /// x, y, z of each point, interleaved; float or double. Length unit: the user's. Empty for a
+  /// rectilinear grid.
   Array points;
-  /// Points along i, j and k of a curvilinear grid; point (i, j, k) is i + ni * (j + nj * k). All
-  /// zero for a mesh of explicit cells.
+  /// Rectilinear grids only: the coordinates along x, y and z, float or double, as many as
+  /// `dimensions` says, strictly ascending or strictly descending.
+  std::array<Array, 3> axes;
+  /// Points along i, j and k of a grid; point (i, j, k) is i + ni * (j + nj * k). All zero for a
+  /// mesh of explicit cells.
   std::array<std::int64_t, 3> dimensions{0, 0, 0};
   Cells cells;
-  /// Curvilinear grids only: nonzero (uint8) where a cell is hidden (blanked, a ghost). May be
-  /// empty.
+  /// Grids only: nonzero (uint8) where a cell is hidden (blanked, a ghost). May be empty.
   Array hidden_cells;
   std::vector<Field> fields;
   /// Name of the field that the file calls active; may be empty.
   std::string active_field;
 
+  /// A grid of either kind: cells follow from `dimensions`.
   bool is_grid() const { return dimensions[0] > 0; }
-  std::size_t point_count() const { return points.size() / 3; }
+  bool is_rectilinear() const { return !axes[0].empty() || !axes[1].empty() || !axes[2].empty(); }
+  std::size_t point_count() const;
   /// Hidden cells included.
   std::size_t cell_count() const;
 };

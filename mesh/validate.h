@@ -10,7 +10,8 @@
 namespace plume {
 
 /// Checks what every later step relies on: finite coordinates, known cell types, offsets in order,
-/// point ids in range, arrays of fitting lengths, at least one cell. Returns the mesh's bounds.
+/// point ids in range, arrays of fitting lengths, axes in order (see rectilinear_axes.h), at least
+/// one cell. Returns the mesh's bounds.
 /// Throws Error naming the first point or cell that is wrong, the value and the remedy.
 Bounds check_structure(const Mesh& mesh);
 

@@ -170,19 +170,23 @@ class GridSteps {
       flipped_y[m] = hn::Abs(at.y);
       flipped_x[m] = hn::Xor(at.x, hn::And(at.y, hn::SignBit(d)));
     }
-    // Whether the edge from corner m of the back to another point crosses on the right, and on the
-    // left (see TetSteps::Step).
+    // Whether edges between front and back, and of the back, cross y = 0, and on the right (see
+    // TetSteps::Step).
     auto side_of = [&](std::size_t m, VF x, VF y) {
       return hn::Sub(hn::MulAdd(flipped_x[m], y, hn::Zero(d)), hn::Mul(x, flipped_y[m]));
     };
-    VF across[4], along[4];              // edges between front and back, and of the back: do they
-    VF right_across[4], right_along[4];  // cross y = 0, and on the right?
+    VF across[4], along[4], right_across[4], right_along[4];
+    Products products;
     for (std::size_t m = 0; m < 4; ++m) {
       const std::size_t n = (m + 1) % 4;
+      const VF down = hn::And(q.y[m], hn::SignBit(d));
+      const VF with_front = side_of(m, p.x[m], p.y[m]), with_next = side_of(m, q.x[n], q.y[n]);
+      products.with_front[m] = hn::Xor(with_front, down);
+      products.with_next[m] = hn::Xor(with_next, down);
       across[m] = hn::Xor(p.y[m], q.y[m]);
       along[m] = hn::Xor(q.y[n], q.y[m]);
-      right_across[m] = hn::And(side_of(m, p.x[m], p.y[m]), across[m]);
-      right_along[m] = hn::And(side_of(m, q.x[n], q.y[n]), along[m]);
+      right_across[m] = hn::And(with_front, across[m]);
+      right_along[m] = hn::And(with_next, along[m]);
     }
     const VF* const right = packet.right;
     VF side[4];  // whether side m winds an odd number of times
@@ -196,38 +200,15 @@ class GridSteps {
     several = hn::Or(several, hn::And(hn::Or(hn::Or(side[0], side[1]), side[2]), side[3]));
     const VF odd = Xor3(right[0], right[1], hn::Xor(right[2], right[3]));
     VF strange = hn::Or(several, hn::Not(odd));
-    VF before[4];  // the front's edges
+    // A face of even winding is crossed twice by rounding only where its corners are above and
+    // below y = 0 in turn; twisted ones may be grazed.
+    VF before[4];  // the front's edges: do they cross y = 0?
     for (std::size_t m = 0; m < 4; ++m) before[m] = hn::Xor(p.y[m], p.y[(m + 1) % 4]);
-    if (twisted_) {
-      // A face of even winding may be crossed, twice, only if some of its edges and diagonals pass
-      // the ray on the right and some on the left: else the ray passes by the hull of its corners.
-      auto add = [&](VF winds, const VF(&crosses)[4], const VF(&rights)[4], VF one, VF one_side,
-                     VF other, VF other_side) {
-        VF any_right = hn::Or(Or3(rights[0], rights[1], rights[2]), rights[3]);
-        any_right = Or3(any_right, hn::And(one, one_side), hn::And(other, other_side));
-        VF any_left = hn::AndNot(rights[0], crosses[0]);
-        for (std::size_t e = 1; e < 4; ++e)
-          any_left = hn::Or(any_left, hn::AndNot(rights[e], crosses[e]));
-        any_left = Or3(any_left, hn::AndNot(one_side, one), hn::AndNot(other_side, other));
-        strange = hn::Or(strange, hn::AndNot(winds, hn::And(any_right, any_left)));
-      };
-      const VF back = Xor3(right_along[0], right_along[1], hn::Xor(right_along[2], right_along[3]));
-      add(back, along, right_along, hn::Xor(q.y[0], q.y[2]), side_of(0, q.x[2], q.y[2]),
-          hn::Xor(q.y[1], q.y[3]), side_of(1, q.x[3], q.y[3]));
-      for (std::size_t m = 0; m < 4; ++m) {
-        const std::size_t n = (m + 1) % 4;
-        const VF crosses[4] = {before[m], across[n], along[m], across[m]};
-        const VF rights[4] = {right[m], right_across[n], right_along[m], right_across[m]};
-        add(side[m], crosses, rights, hn::Xor(p.y[m], q.y[n]), side_of(n, p.x[m], p.y[m]),
-            hn::Xor(p.y[n], q.y[m]), side_of(m, p.x[n], p.y[n]));
-      }
-    } else {
-      // A planar, convex face is crossed twice only by rounding: where its corners are above and
-      // below y = 0 in turn.
-      strange = hn::Or(strange, hn::And(hn::And(along[0], along[1]), along[2]));
-      for (std::size_t m = 0; m < 4; ++m)
-        strange = hn::Or(strange, hn::And(hn::And(before[m], across[(m + 1) % 4]), along[m]));
-    }
+    strange = hn::Or(strange, And3(along[0], along[1], along[2]));
+    for (std::size_t m = 0; m < 4; ++m)
+      strange = hn::Or(strange, And3(before[m], across[(m + 1) % 4], along[m]));
+    if (twisted_) strange = hn::Or(strange, Grazed(p, q, side, products));
+
     const VU index[3] = {packet.index[0], packet.index[1], packet.index[2]};
 
     // The front of the next cell: the back, or side m, whose corners m and m + 1 stay.
@@ -301,6 +282,61 @@ class GridSteps {
 
   static HWY_INLINE VF Xor3(VF a, VF b, VF c) { return hn::Xor(a, hn::Xor(b, c)); }
   static HWY_INLINE VF Or3(VF a, VF b, VF c) { return hn::Or(a, hn::Or(b, c)); }
+  static HWY_INLINE VF And3(VF a, VF b, VF c) { return hn::And(a, hn::And(b, c)); }
+
+  // Products of the back's corners m with other points, as far as several faces need them.
+  struct Products {
+    VF with_front[4];  // of corner m and that of the front: q.x * p.y - p.x * q.y
+    VF with_next[4];   // of corner m and m + 1
+  };
+
+  // Lanes in which a face other than the front of even winding may be crossed twice all the same:
+  // is_grazed() of quad_crossings.h, with room for what rounding does. `odd_sides` are those of odd
+  // winding.
+  template <bool kMeasure>
+  static HWY_INLINE VF Grazed(const QuadLanes<kMeasure>& p, const QuadLanes<kMeasure>& q,
+                              const VF (&odd_sides)[4], const Products& products) {
+    const DF d;
+    auto product = [&](VF ax, VF ay, VF bx, VF by) {
+      return hn::Sub(hn::MulAdd(ax, by, hn::Zero(d)), hn::Mul(bx, ay));
+    };
+    // Products of two coordinates are below x * y, their rounding below 2^-24 of that; a sum of two
+    // differences of them is off by 12 such at the most.
+    VF x = hn::Zero(d), y = hn::Zero(d);
+    for (std::size_t m = 0; m < 4; ++m) {
+      x = hn::Max(x, hn::Max(hn::Abs(p.x[m]), hn::Abs(q.x[m])));
+      y = hn::Max(y, hn::Max(hn::Abs(p.y[m]), hn::Abs(q.y[m])));
+    }
+    const VF error = hn::Mul(hn::Mul(x, y), hn::Set(d, 0x1p-20f));
+    const VF tiny = hn::Set(d, 1e-37f);  // above what underflows
+    // Negative where the face is not grazed. Signs of single products are right, or they are 0.
+    auto passed_by = [&](VF v0, VF v2, VF u0, VF u2, VF ac, VF bd) {
+      const VF v1 = hn::Sub(ac, bd), u1 = hn::Add(ac, bd);
+      auto room = [&](VF of) { return hn::MulAdd(hn::Abs(of), error, tiny); };
+      const VF four = hn::Set(d, 4);
+      const VF outer = hn::Mul(v0, v2);
+      const VF sizes = hn::MulAdd(four, hn::Add(hn::Abs(v0), hn::Abs(v2)),
+                                  hn::MulAdd(hn::Set(d, 2), hn::Abs(v1), error));
+      const VF discriminant = hn::NegMulAdd(four, outer, hn::MulAdd(v1, v1, room(sizes)));
+      return hn::Or(Or3(hn::Add(outer, tiny), hn::MulAdd(u0, u2, tiny), discriminant),
+                    hn::Or(hn::NegMulAdd(v0, v1, room(v0)), hn::NegMulAdd(u0, u1, room(u0))));
+    };
+    const VF* const k = products.with_next;
+    const VF back_odd =
+        hn::Not(hn::Xor(hn::Xor(odd_sides[0], odd_sides[1]), hn::Xor(odd_sides[2], odd_sides[3])));
+    VF grazed = hn::Not(hn::Or(back_odd, passed_by(k[0], hn::Neg(k[2]), hn::Neg(k[3]), k[1],
+                                                   product(q.x[0], q.y[0], q.x[2], q.y[2]),
+                                                   product(q.x[1], q.y[1], q.x[3], q.y[3]))));
+    for (std::size_t m = 0; m < 4; ++m) {
+      const std::size_t n = (m + 1) % 4;
+      const VF passed =
+          passed_by(product(p.x[m], p.y[m], p.x[n], p.y[n]), k[m], hn::Neg(products.with_front[m]),
+                    hn::Neg(products.with_front[n]), product(p.x[m], p.y[m], q.x[n], q.y[n]),
+                    product(p.x[n], p.y[n], q.x[m], q.y[m]));
+      grazed = hn::Or(grazed, hn::Not(hn::Or(odd_sides[m], passed)));
+    }
+    return grazed;
+  }
 
   HWY_INLINE VU CellAt(const VU (&index)[3]) const {
     const DU du;

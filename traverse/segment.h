@@ -5,6 +5,10 @@
 
 namespace plume {
 
+/// The polynomial that a cell's scalar is taken for along a segment. Tetrahedra are linear whatever
+/// was asked for.
+enum class ScalarOrder : std::uint8_t { linear = 1, quadratic = 2, cubic = 3 };
+
 /// The part of a ray inside one cell, in front-to-back order along the ray.
 struct Segment {
   /// Distances along the ray in world units; t_in <= t_out.
@@ -14,6 +18,10 @@ struct Segment {
   float s_in, s_out;
   /// Number of the cell in the walkable mesh.
   std::uint32_t cell;
+  /// Quadratic: the scalar half way is inner[0]. Cubic: at a third and at two thirds of the way.
+  /// Linear: unused.
+  ScalarOrder order = ScalarOrder::linear;
+  float inner[2] = {0, 0};
 };
 
 /// How a ray's way through a mesh ended.

@@ -37,7 +37,8 @@ void add_generate(CLI::App& app) {
     description += fmt::format("\n  {:<18} {}", generator.name, generator.description);
   CLI::App* command = app.add_subcommand("generate", "Make a mesh of a given kind");
   command->add_option("name", args->name, description)->required();
-  command->add_option("-o,--output", args->output, "The mesh file: .vtu, .vts or .vtk")->required();
+  command->add_option("-o,--output", args->output, "The mesh file: .vtu, .vts, .vtr, .vti or .vtk")
+      ->required();
   command->add_option("--size", args->options.size, "Cells along an edge (each mesh's own default)")
       ->check(CLI::PositiveNumber);
   command

@@ -9,6 +9,7 @@
 
 #include "plume/mesh/error.h"
 #include "plume/tests/bench/build_bench.h"
+#include "plume/tests/bench/regular_bench.h"
 #include "plume/tests/bench/result_table.h"
 #include "plume/tests/bench/tet_bench.h"
 
@@ -55,6 +56,7 @@ int main(int argc, char** argv) {
   try {
     plume::bench::register_build_benchmarks({options.all, options.rounds});
     plume::bench::register_tet_benchmarks(options);
+    plume::bench::register_regular_benchmarks(options.rounds);
     benchmark::RunSpecifiedBenchmarks();
   } catch (const plume::Error& error) {
     std::fprintf(stderr, "plume_bench: %s\n", error.what());
@@ -62,5 +64,7 @@ int main(int argc, char** argv) {
   }
   benchmark::Shutdown();
   if (table) std::fputs(plume::bench::result_table(plume::bench::tet_results()).c_str(), stdout);
-  return plume::bench::tet_bench_failed() || plume::bench::build_bench_failed() ? 1 : 0;
+  const bool failed = plume::bench::tet_bench_failed() || plume::bench::build_bench_failed() ||
+                      plume::bench::regular_bench_failed();
+  return failed ? 1 : 0;
 }

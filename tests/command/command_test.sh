@@ -86,6 +86,26 @@ ok "info as JSON" sh -c "'$plume' info mixed.vtu --json > info.json"
 ok "info holds what it should" json info.json \
   "len(j['cells_by_type'])==4 and sum(j['cells_by_type'].values())==j['cells'] and j['components']==1 and j['problems']==[] and j['bounds']['high']==[1,1,1] and j['boundary_faces']>0 and j['memory_bytes']>0 and j['fields'][0]['range'][0]==0"
 
+ok "a regular grid is made" "$plume" generate box-rectilinear --jitter 0 --size 8 -o regular.vti --quiet
+ok "a rectilinear grid is made" "$plume" generate box-rectilinear --size 8 -o uneven.vtr --quiet
+for grid in regular.vti uneven.vtr; do
+  ok "$grid is told of" sh -c "'$plume' info $grid --json > info.json"
+  ok "$grid is a rectilinear grid" json info.json \
+    "j['form']=='rectilinear grid' and j['dimensions']==[9,9,9] and j['points']==729 and j['cells']==512 and j['boundary_faces']==384 and j['components']==1 and j['problems']==[] and j['memory_bytes']<5*729 and j['bounds']['high']==[1,1,1]"
+  for mode in volume mip integral depth; do
+    ok "$grid, mode $mode" "$plume" render $grid --mode $mode -o $mode.png --size 40x30 --stats g.json --quiet
+    ok "no ray is lost in $grid, mode $mode" json g.json "j['rays_hit']>0 and j['lost_rays']==0"
+  done
+done
+refused "an uneven grid as an image" 1 "x.vti|write .vtr" "$plume" generate box-rectilinear --size 8 -o x.vti
+refused "a mesh of tetrahedra as a grid" 1 "x.vtr|write .vtu" "$plume" generate box-tetrahedra --size 2 -o x.vtr
+{
+  printf '# vtk DataFile Version 3.0\nt\nASCII\nDATASET RECTILINEAR_GRID\nDIMENSIONS 2 3 2\n'
+  printf 'X_COORDINATES 2 float\n0 1\nY_COORDINATES 3 float\n0 2 1\nZ_COORDINATES 2 float\n0 1\n'
+  printf 'POINT_DATA 12\nSCALARS s float\nLOOKUP_TABLE default\n1 2 3 4 5 6 7 8 9 10 11 12\n'
+} >unordered.vtk
+refused "coordinates out of order" 1 "unordered.vtk|y coordinate 2 is 1 after 2|sort" "$plume" render unordered.vtk -o y.png
+
 for name in $("$plume" generate --help | awk '/Make a mesh:/ {on = 1; next} /^Options/ {on = 0} on && NF {print $1}'); do
   ok "generate $name" "$plume" generate "$name" --size 6 -o "$name.vtu" --quiet
   for view in +x iso; do

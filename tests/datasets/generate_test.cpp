@@ -78,6 +78,7 @@ TEST_P(EveryGenerator, IsReproducible) {
   const Mesh a = generate(GetParam(), options), b = generate(GetParam(), options);
   EXPECT_TRUE(same(a.points, b.points));
   EXPECT_TRUE(same(a.cells.connectivity, b.cells.connectivity));
+  for (std::size_t axis = 0; axis < 3; ++axis) EXPECT_TRUE(same(a.axes[axis], b.axes[axis]));
   ASSERT_EQ(a.fields.size(), b.fields.size());
   for (std::size_t i = 0; i < a.fields.size(); ++i) {
     EXPECT_TRUE(same(a.fields[i].values, b.fields[i].values));
@@ -109,10 +110,10 @@ INSTANTIATE_TEST_SUITE_P(Generators, EveryGenerator, testing::ValuesIn(names()),
                          });
 
 TEST(Generate, NamesAreTheExpectedOnes) {
-  EXPECT_EQ(names(),
-            (std::vector<std::string>{"blunt-body", "box-tetrahedra", "box-hexahedra", "box-wedges",
-                                      "box-mixed", "box-polyhedra", "twisted", "o-grid", "sphere",
-                                      "ball-tetrahedra", "two-blocks", "nested-shell"}));
+  EXPECT_EQ(names(), (std::vector<std::string>{"blunt-body", "box-tetrahedra", "box-hexahedra",
+                                               "box-rectilinear", "box-wedges", "box-mixed",
+                                               "box-polyhedra", "twisted", "o-grid", "sphere",
+                                               "ball-tetrahedra", "two-blocks", "nested-shell"}));
 }
 
 TEST(Generate, RefusesWhatItCannotMake) {
@@ -137,8 +138,8 @@ TEST(Generate, RefusesWhatItCannotMake) {
 }
 
 TEST(Generate, BoxesFillTheUnitCube) {
-  for (const char* name : {"box-tetrahedra", "box-hexahedra", "box-wedges", "box-mixed",
-                           "box-polyhedra", "twisted", "two-blocks", "nested-shell"}) {
+  for (const char* name : {"box-tetrahedra", "box-hexahedra", "box-rectilinear", "box-wedges",
+                           "box-mixed", "box-polyhedra", "twisted", "two-blocks", "nested-shell"}) {
     // Where faces match and the boundary is fixed, jitter moves volume but does not change its sum.
     for (double jitter : {0.0, 0.2, 3.0}) {
       EXPECT_NEAR(total_volume(generate(name, of_size(6, jitter))), 1, 1e-6) << name << jitter;
@@ -198,6 +199,29 @@ TEST(Generate, BoxCountsAreAsDocumented) {
   EXPECT_EQ(generate("twisted").cell_count(), 56u * 56 * 56);
 }
 
+TEST(Generate, PlanesOfARectilinearBoxKeepTheirOrder) {
+  const auto planes = [](const GenerateOptions& options) {
+    const Mesh mesh = generate("box-rectilinear", options);
+    EXPECT_TRUE(mesh.points.empty());
+    return mesh.axes[1].visit([](auto v) { return std::vector<double>(v.begin(), v.end()); });
+  };
+  EXPECT_EQ(planes(of_size(4)), (std::vector<double>{0, 0.25, 0.5, 0.75, 1}));
+  for (const double jitter : {0.2, 3.0}) {
+    const auto moved = planes(of_size(40, jitter));
+    double farthest = 0;
+    for (std::size_t i = 0; i < moved.size(); ++i) {
+      if (i > 0) {
+        EXPECT_GT(moved[i], moved[i - 1]);
+      }
+      farthest = std::max(farthest, std::abs(moved[i] * 40 - static_cast<double>(i)));
+    }
+    EXPECT_EQ(moved.front(), 0);
+    EXPECT_EQ(moved.back(), 1);
+    EXPECT_LE(farthest, std::min(jitter, 0.45) + 1e-12);
+    EXPECT_GT(farthest, 0.15);
+  }
+}
+
 TEST(Generate, BoxFieldsAreWhatTheyAreCalled) {
   const Mesh mesh = generate("box-tetrahedra", of_size(4, 0.2));
   const auto id = std::int64_t{62};
@@ -206,7 +230,7 @@ TEST(Generate, BoxFieldsAreWhatTheyAreCalled) {
                   static_cast<float>(p[0] + 2 * p[1] + 3 * p[2]));
   EXPECT_FLOAT_EQ(field(mesh, "radius").values.at<float>(62),
                   static_cast<float>(std::hypot(p[0] - 0.5, p[1] - 0.5, p[2] - 0.5)));
-  for (const char* name : {"box-tetrahedra", "box-hexahedra"}) {
+  for (const char* name : {"box-tetrahedra", "box-hexahedra", "box-rectilinear"}) {
     const Mesh m = generate(name, of_size(4, 0.2));
     const auto cells = cells_of(m);
     ASSERT_EQ(field(m, "cell_radius").association, Association::cell);

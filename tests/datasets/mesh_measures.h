@@ -100,6 +100,14 @@ inline std::vector<Cell> cells_of(const Mesh& mesh) {
 }
 
 inline Vector point(const Mesh& mesh, std::int64_t id) {
+  if (mesh.is_rectilinear()) {
+    Vector p;
+    for (std::size_t a = 0; a < 3; ++a) {
+      p[a] = mesh.axes[a].at<double>(static_cast<std::size_t>(id % mesh.dimensions[a]));
+      id /= mesh.dimensions[a];
+    }
+    return p;
+  }
   const auto i = 3 * static_cast<std::size_t>(id);
   return {mesh.points.at<double>(i), mesh.points.at<double>(i + 1), mesh.points.at<double>(i + 2)};
 }

@@ -12,7 +12,6 @@
 #include <vtkOutputWindow.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
-#include <vtkRectilinearGrid.h>
 #include <vtkStringArray.h>
 #include <vtkStructuredGrid.h>
 #include <vtkUnsignedCharArray.h>
@@ -20,7 +19,6 @@
 #include <vtkXMLImageDataWriter.h>
 #include <vtkXMLMultiBlockDataWriter.h>
 #include <vtkXMLPUnstructuredGridWriter.h>
-#include <vtkXMLRectilinearGridWriter.h>
 #include <vtkXMLStructuredGridWriter.h>
 #include <vtkXMLUnstructuredGridWriter.h>
 
@@ -107,7 +105,7 @@ TEST_F(VtkFile, AStructuredGridStaysOne) {
   EXPECT_TRUE(mesh.cells.connectivity.empty());
 }
 
-TEST_F(VtkFile, AnImagesPointsFollowItsOriginSpacingAndDirection) {
+TEST_F(VtkFile, ATurnedImagesPointsFollowItsOriginSpacingAndDirection) {
   vtkNew<vtkImageData> image;
   // Extents need not start at 0.
   image->SetExtent(2, 4, 0, 2, 1, 4);
@@ -117,31 +115,12 @@ TEST_F(VtkFile, AnImagesPointsFollowItsOriginSpacingAndDirection) {
   image->SetDirectionMatrix(0, -1, 0, 1, 0, 0, 0, 0, 1);
   add_fields(*image);
   const Mesh mesh = read_mesh(written<vtkXMLImageDataWriter>(image, path("a.vti")));
+  EXPECT_FALSE(mesh.is_rectilinear());
   EXPECT_EQ(mesh.dimensions, (std::array<std::int64_t, 3>{3, 3, 4}));
   const auto points = values(mesh.points);
   EXPECT_EQ(std::vector<double>(points.begin(), points.begin() + 6),
             (std::vector<double>{10, 21, 32, 10, 21.5, 32}));
   EXPECT_EQ(std::vector<double>(points.end() - 3, points.end()), (std::vector<double>{8, 22, 38}));
-}
-
-TEST_F(VtkFile, ARectilinearGridsPointsAreTheProductOfItsAxes) {
-  vtkNew<vtkRectilinearGrid> grid;
-  grid->SetDimensions(2, 3, 2);
-  const std::vector<float> axes[] = {{1, 4}, {0, 2, 3}, {-1, 5}};
-  for (int axis = 0; axis < 3; ++axis) {
-    vtkNew<vtkFloatArray> values_along;
-    for (const float value : axes[axis]) values_along->InsertNextValue(value);
-    if (axis == 0) grid->SetXCoordinates(values_along);
-    if (axis == 1) grid->SetYCoordinates(values_along);
-    if (axis == 2) grid->SetZCoordinates(values_along);
-  }
-  const Mesh mesh = read_mesh(written<vtkXMLRectilinearGridWriter>(grid, path("a.vtr")));
-  EXPECT_EQ(mesh.dimensions, (std::array<std::int64_t, 3>{2, 3, 2}));
-  EXPECT_EQ(mesh.points.type(), Array::Type::float32);
-  const auto points = values(mesh.points);
-  EXPECT_EQ(std::vector<double>(points.begin() + 9, points.begin() + 12),
-            (std::vector<double>{4, 2, -1}));
-  EXPECT_EQ(std::vector<double>(points.end() - 3, points.end()), (std::vector<double>{4, 3, 5}));
 }
 
 TEST_F(VtkFile, SeveralPiecesAndBlocksBecomeOneMesh) {

@@ -198,7 +198,7 @@ std::string write_error(const Mesh& mesh, const std::filesystem::path& file) {
 }
 
 TEST_F(MeshFile, RefusesWhatItCannotWrite) {
-  EXPECT_NE(write_error(grid(), path("a.stl")).find("name it .vtu, .vts or .vtk"),
+  EXPECT_NE(write_error(grid(), path("a.stl")).find("name it .vtu, .vts, .vtr, .vti or .vtk"),
             std::string::npos);
   EXPECT_NE(write_error(one_of_each(), path("a.vts")).find("a.vts: .vts holds a structured grid"),
             std::string::npos);

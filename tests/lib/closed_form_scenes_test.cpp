@@ -19,8 +19,9 @@ constexpr double kBound = 1e-5;  // linear RGBA, as promised
 constexpr double kTau = 1.7;     // extinction per unit length
 constexpr std::array<float, 3> kColor{0.9f, 0.5f, 0.2f};
 
-const std::vector<std::string> kForms{"box-tetrahedra", "box-hexahedra", "box-mixed",
-                                      "box-polyhedra",  "box-wedges",    "two-blocks"};
+const std::vector<std::string> kForms{"box-tetrahedra", "box-hexahedra",   "box-mixed",
+                                      "box-polyhedra",  "box-rectilinear", "box-wedges",
+                                      "two-blocks"};
 
 TransferFunction uniform() { return {{{0, {kTau, kColor}}}}; }
 

@@ -15,7 +15,7 @@
 namespace plume::test {
 namespace {
 
-const char* const kForms[] = {"box-tetrahedra", "box-hexahedra", "box-mixed"};
+const char* const kForms[] = {"box-tetrahedra", "box-hexahedra", "box-mixed", "box-rectilinear"};
 
 // x + 2y + 3z along a ray.
 double linear_at(const Ray& ray, double t) {
