@@ -125,13 +125,15 @@ std::size_t Scene::bytes() const {
   return std::visit([](const auto& w) { return w->mesh.bytes(); }, body_->walkable);
 }
 
-TraceResult Scene::trace(const Ray& ray, const std::function<bool(const Segment&)>& visit) const {
+TraceResult Scene::trace(const Ray& ray, const std::function<bool(const Segment&)>& visit,
+                         ScalarOrder order) const {
   return std::visit(
       [&](const auto& w) {
-        return plume::trace(w->mesh, w->boundary, ray, [&](Segment segment) {
+        auto renumbered = [&](Segment segment) {
           segment.cell = w->mesh.original_cell(segment.cell);
           return visit(segment);
-        });
+        };
+        return plume::trace(w->mesh, w->boundary, ray, renumbered, order);
       },
       body_->walkable);
 }

@@ -27,7 +27,7 @@ struct RenderArguments {
   std::vector<std::string> channels;
   double azimuth = 0, elevation = 0, zoom = 1, opacity_scale = 1, view_angle = 0;
   double unit_distance = 0, early_termination = RenderSettings{}.early_termination;
-  int time_step = -1, samples = 1, threads = 0, bits = 8;
+  int time_step = -1, samples = 1, order = 1, threads = 0, bits = 8;
   bool parallel = false, merge_points = false, quiet = false, verbose = false;
 };
 
@@ -185,6 +185,7 @@ void run(const RenderArguments& args) {
   settings.mode = chosen(kModes, args.mode);
   settings.integrator.kind = chosen(kIntegrators, args.integrator);
   settings.integrator.samples = args.samples;
+  settings.order = static_cast<ScalarOrder>(args.order);
   settings.early_termination = args.early_termination;
   settings.threads = args.threads;
   settings.channels = args.channels;
@@ -231,6 +232,7 @@ void run(const RenderArguments& args) {
         {"field_range", {field.low, field.high}},
         {"values_not_finite", field.not_finite},
         {"size", {size.width, size.height}},
+        {"order", args.order},
         {"plan", statistics.plan},
         {"findings", to_json(scene.findings())}};
     write_whole_file(args.stats, stats.dump(2) + "\n");
@@ -285,6 +287,11 @@ void add_render(CLI::App& app) {
       ->check(CLI::IsMember(names_of(kIntegrators)));
   command->add_option("--samples", args->samples, "Samples a segment, for midpoint (1)")
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--order", args->order,
+                   "The scalar inside of a cell: 1 linear, 2 quadratic, 3 cubic; tetrahedra are "
+                   "linear (1)")
+      ->check(CLI::IsMember({1, 2, 3}));
   command
       ->add_option("--early-termination", args->early_termination,
                    "Transmittance at which a ray ends (1e-4)")
