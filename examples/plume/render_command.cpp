@@ -23,11 +23,11 @@ namespace {
 struct RenderArguments {
   std::string mesh, solution, output = "picture.png", field, association, size = "1024x768";
   std::string view = "iso", camera, transfer_function, transfer_range, mode = "volume";
-  std::string integrator = "closed-form", background = "white", stats;
+  std::string integrator = "closed-form", order = "1", background = "white", stats;
   std::vector<std::string> channels;
   double azimuth = 0, elevation = 0, zoom = 1, opacity_scale = 1, view_angle = 0;
   double unit_distance = 0, early_termination = RenderSettings{}.early_termination;
-  int time_step = -1, samples = 1, order = 1, threads = 0, bits = 8;
+  int time_step = -1, samples = 1, threads = 0, bits = 8;
   bool parallel = false, merge_points = false, quiet = false, verbose = false;
 };
 
@@ -39,6 +39,8 @@ const std::vector<std::pair<std::string, IntegratorKind>> kIntegrators{
     {"closed-form", IntegratorKind::closed_form},
     {"table", IntegratorKind::table},
     {"midpoint", IntegratorKind::midpoint}};
+const std::vector<std::pair<std::string, ScalarOrder>> kOrders{
+    {"1", ScalarOrder::linear}, {"2", ScalarOrder::quadratic}, {"3", ScalarOrder::cubic}};
 
 template <class T>
 std::vector<std::string> names_of(const std::vector<std::pair<std::string, T>>& choices) {
@@ -185,7 +187,7 @@ void run(const RenderArguments& args) {
   settings.mode = chosen(kModes, args.mode);
   settings.integrator.kind = chosen(kIntegrators, args.integrator);
   settings.integrator.samples = args.samples;
-  settings.order = static_cast<ScalarOrder>(args.order);
+  settings.order = chosen(kOrders, args.order);
   settings.early_termination = args.early_termination;
   settings.threads = args.threads;
   settings.channels = args.channels;
@@ -232,7 +234,7 @@ void run(const RenderArguments& args) {
         {"field_range", {field.low, field.high}},
         {"values_not_finite", field.not_finite},
         {"size", {size.width, size.height}},
-        {"order", args.order},
+        {"order", static_cast<int>(settings.order)},
         {"plan", statistics.plan},
         {"findings", to_json(scene.findings())}};
     write_whole_file(args.stats, stats.dump(2) + "\n");
@@ -291,7 +293,7 @@ void add_render(CLI::App& app) {
       ->add_option("--order", args->order,
                    "The scalar inside of a cell: 1 linear, 2 quadratic, 3 cubic; tetrahedra are "
                    "linear (1)")
-      ->check(CLI::IsMember({1, 2, 3}));
+      ->check(CLI::IsMember(names_of(kOrders)));
   command
       ->add_option("--early-termination", args->early_termination,
                    "Transmittance at which a ray ends (1e-4)")

@@ -67,6 +67,11 @@ done
 for integrator in closed-form table midpoint; do
   ok "integrator $integrator" "$plume" render body.vts --integrator $integrator -o i.png --size 40x30 --quiet
 done
+for order in 1 2 3; do
+  ok "order $order" "$plume" render mixed.vtu --order $order -o o$order.png --size 40x30 --stats o.json --quiet
+  ok "order $order is in the statistics" json o.json "j['order']==$order"
+done
+ok "the order is in the plan" json o.json "any('order 3: cubic' in line for line in j['plan'])"
 ok "an EXR with channels" "$plume" render mixed.vtu -o a.exr --size 40x30 --quiet \
   --channels depth,optical_depth,cell_id,cell_count
 ok "a view that begins with a minus" "$plume" render box.vtu --view -x -o v.png --size 20x20 --quiet
@@ -103,6 +108,7 @@ ok "and for more of them" cmp t1.png t3.png
 refused "no arguments" 2 "subcommand" "$plume"
 refused "an unknown option" 2 "--colour" "$plume" render box.vtu --colour red
 refused "an unknown mode" 2 "mode" "$plume" render box.vtu --mode xray
+refused "an unknown order" 2 "--order|cubic|1,2,3" "$plume" render box.vtu --order cubic
 refused "a missing file" 1 "gone.vtu" "$plume" render gone.vtu -o x.png
 refused "an unknown field" 1 "box.vtu|pressure|linear|radius|waves" "$plume" render box.vtu --field pressure -o x.png
 refused "an unknown component" 1 "velocity|7|0 to 2" "$plume" render body.vts --field velocity:7 -o x.png
