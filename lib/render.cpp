@@ -315,6 +315,8 @@ std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings&
                   form == "tetrahedra" ? "all cells are tetrahedra: the scalar is linear in each"
                   : form == "grid"     ? "one curvilinear grid: neighbours follow from the indices"
                                        : "mixed cells: faces and their two sides are stored"));
+  if (scene.cell_data_averaged())
+    plan.push_back("cell data: averaged to the points, weighted by 1 / distance");
   plan.push_back(fmt::format("scalar: {}, {}", scene.field().name,
                              scene.field().association == Association::cell
                                  ? "constant in each cell, as the field is cell-centred"
