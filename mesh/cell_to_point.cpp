@@ -42,19 +42,21 @@ ScalarField average_to_points(const Mesh& mesh, const ScalarField& scalar) {
   assert(scalar.association == Association::cell);
   const CellReader cells(mesh);
   const std::vector<Place> centers = centers_of_cells(mesh, cells);
-  const PointCells around = cells_around_points(mesh);
+  const PointCells point_cells(mesh);
   ScalarField result;
   result.name = scalar.name;
   result.association = Association::point;
   result.values.resize(mesh.point_count());
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, result.values.size()), [&](const auto& range) {
+        std::vector<std::uint32_t> around;
         for (std::size_t p = range.begin(); p != range.end(); ++p) {
+          point_cells.around(p, around);
           const Place here = point_at(mesh, p);
           // From the first value, so that equal values leave nothing to round.
           double weights = 0, sum = 0, first = 0;
           std::size_t at_the_point = 0;
-          for (const std::uint32_t cell : around.around(p)) {
+          for (const std::uint32_t cell : around) {
             const double value = scalar.values[cell];
             if (std::isnan(value)) continue;
             const double distance = std::hypot(
@@ -74,10 +76,12 @@ ScalarField average_to_points(const Mesh& mesh, const ScalarField& scalar) {
         }
       });
   float low = std::numeric_limits<float>::infinity(), high = -low;
+  std::vector<std::uint32_t> around;
   for (std::size_t p = 0; p < result.values.size(); ++p) {
     const float value = result.values[p];
     if (std::isnan(value)) {
-      result.not_finite += around.around(p).empty() ? 0 : 1;
+      point_cells.around(p, around);
+      result.not_finite += around.empty() ? 0 : 1;
     } else {
       low = std::min(low, value);
       high = std::max(high, value);

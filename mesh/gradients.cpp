@@ -106,14 +106,16 @@ constexpr std::uint8_t kTetrahedronEdges[4][3] = {{1, 2, 3}, {0, 2, 3}, {0, 1, 3
 class Gradients {
  public:
   Gradients(const Mesh& mesh, const std::vector<float>& scalar)
-      : mesh_(mesh), scalar_(scalar), cells_(mesh), around_(cells_around_points(mesh)) {}
+      : mesh_(mesh), scalar_(scalar), cells_(mesh), around_(mesh) {}
 
   Vector operator()(std::size_t point) const {
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-    const auto cells = around_.around(point);
+    std::vector<std::uint32_t> cells;
+    around_.around(point, cells);
     if (!std::isnan(scalar_[point]) && !cells.empty()) {
-      if (const auto g = mesh_.is_grid() ? along_the_grid(point) : of_the_cells(point)) return *g;
-      if (const auto g = least_squares(point)) return *g;
+      if (const auto g = mesh_.is_grid() ? along_the_grid(point) : of_the_cells(point, cells))
+        return *g;
+      if (const auto g = least_squares(point, cells)) return *g;
     }
     return {kNaN, kNaN, kNaN};
   }
@@ -181,7 +183,9 @@ class Gradients {
   // Whether a visible cell has both points.
   bool share_a_cell(std::size_t a, std::size_t b) const {
     if (mesh_.hidden_cells.empty()) return true;
-    const auto of_a = around_.around(a), of_b = around_.around(b);
+    std::vector<std::uint32_t> of_a, of_b;
+    around_.around(a, of_a);
+    around_.around(b, of_b);
     for (std::size_t i = 0, j = 0; i < of_a.size() && j < of_b.size();) {
       if (of_a[i] == of_b[j]) return true;
       of_a[i] < of_b[j] ? ++i : ++j;
@@ -190,11 +194,12 @@ class Gradients {
   }
 
   // Tetrahedra alone, or hexahedra and voxels alone.
-  std::optional<Vector> of_the_cells(std::size_t point) const {
+  std::optional<Vector> of_the_cells(std::size_t point,
+                                     const std::vector<std::uint32_t>& around) const {
     VolumeMean mean;
     std::vector<std::uint32_t> ids;
-    const bool tetrahedra = cells_.type(around_.around(point)[0]) == CellType::tetrahedron;
-    for (const std::uint32_t cell : around_.around(point)) {
+    const bool tetrahedra = cells_.type(around[0]) == CellType::tetrahedron;
+    for (const std::uint32_t cell : around) {
       const CellType type = cells_.type(cell);
       const bool is_box = type == CellType::hexahedron || type == CellType::voxel;
       if (tetrahedra ? type != CellType::tetrahedron : !is_box) return std::nullopt;
@@ -215,11 +220,12 @@ class Gradients {
     return mean.gradient();
   }
 
-  std::optional<Vector> least_squares(std::size_t point) const {
+  std::optional<Vector> least_squares(std::size_t point,
+                                      const std::vector<std::uint32_t>& around) const {
     LeastSquares fit;
     const Vector here = place(point);
     std::vector<std::uint32_t> ids;
-    for (const std::uint32_t cell : around_.around(point)) {
+    for (const std::uint32_t cell : around) {
       cells_.points(cell, ids);
       for (const std::uint32_t id : ids) fit.add(place(id) - here, change(point, id));
     }

@@ -1,27 +1,32 @@
 /// Which cells are around each point of a mesh.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <vector>
 
 #include "plume/mesh/mesh.h"
 
 namespace plume {
 
-/// 8 bytes a point, and 4 for each point of each cell: for a pass over the points, not to be kept.
-struct PointCells {
-  std::vector<std::size_t> begin;    ///< points + 1 offsets into cells
-  std::vector<std::uint32_t> cells;  ///< ascending for each point, each once
+/// For passes over the points of a mesh, not to be kept: 8 bytes a point and 4 for each point of
+/// each cell, but nothing for a grid, where cells follow from the indices. Gathered in parallel;
+/// the result does not depend on the number of threads. Refers to the mesh. Requires
+/// check_structure().
+class PointCells {
+ public:
+  explicit PointCells(const Mesh& mesh);
 
-  std::span<const std::uint32_t> around(std::size_t point) const {
-    return {cells.data() + begin[point], cells.data() + begin[point + 1]};
-  }
+  /// The visible cells that have the point, in ascending order, each once.
+  void around(std::size_t point, std::vector<std::uint32_t>& cells) const;
+
+ private:
+  void gather();
+
+  const Mesh& mesh_;
+  std::vector<std::size_t> begin_;    // points + 1 offsets into cells_
+  std::vector<std::uint32_t> cells_;  // ascending for each point
 };
-
-/// Gathers them, in parallel; hidden cells are left out. The result does not depend on the number
-/// of threads. Requires check_structure().
-PointCells cells_around_points(const Mesh& mesh);
 
 }  // namespace plume
