@@ -151,9 +151,12 @@ class Frame {
     });
   }
 
-  // Whether packets can render this frame: tetrahedra, volume, closed form, nothing besides.
+  // Whether packets can render this frame: linear segments, volume, closed form, nothing besides.
   bool by_packets() const {
-    return !settings_.scalar_twin && settings_.mode == Mode::volume &&
+    const bool linear = settings_.order == ScalarOrder::linear ||
+                        scene_.field().association == Association::cell ||
+                        std::string(scene_.form()) == "tetrahedra";
+    return linear && !settings_.scalar_twin && settings_.mode == Mode::volume &&
            settings_.integrator.kind == IntegratorKind::closed_form && settings_.channels.empty();
   }
 

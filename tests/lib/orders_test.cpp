@@ -168,6 +168,32 @@ TEST(Orders, AFewCellsShowWhatManyDo) {
   EXPECT_LT(worst[3], 1e-3);
 }
 
+// A cell that is opaque in its middle alone, of which its faces tell nothing.
+TEST(Orders, SeeWhatIsInTheMiddleOfACell) {
+  // 1 at two opposite corners, 0 at the others: along x = y, z = 1/2 the scalar is
+  // (x^2 + (1 - x)^2) / 2, which is below 3/8 where |x - 1/2| < sqrt(1/8).
+  auto corners = [](const Point& p) { return p[0] == p[1] && p[0] == p[2] ? 1.0 : 0.0; };
+  Scene scene(with(generate("box-hexahedra", {1, 0, 1}), same, corners));
+  scene.set_transfer_function({{{0, {5, {1, 1, 1}}}, {0.375f, {5, {1, 1, 1}}}, {0.375f, {0, {}}}}});
+  Camera camera;
+  camera.position = {-1, -1, 0.5};
+  camera.focal_point = {0.5, 0.5, 0.5};
+  camera.view_up = {0, 0, 1};
+  RenderSettings settings = settings_of(ScalarOrder::linear, Mode::depth);
+  settings.width = settings.height = 1;
+  EXPECT_TRUE(std::isinf(render(scene, camera, settings).image.channels[0].values[0]));
+  const double expected = (1.5 - std::sqrt(0.125)) * std::sqrt(2.0);
+  for (const ScalarOrder order : kHigher) {
+    settings.order = order;
+    settings.mode = Mode::depth;
+    // That of the first part that is not transparent: of at most 32 to either side of the middle.
+    EXPECT_NEAR(render(scene, camera, settings).image.channels[0].values[0], expected, 0.03);
+    settings.mode = Mode::volume;
+    EXPECT_NEAR(render(scene, camera, settings).image.rgba[3],
+                -std::expm1(-5 * 2 * std::sqrt(0.125) * std::sqrt(2.0)), 1e-3);
+  }
+}
+
 TEST(Orders, ChangeNothingWhereCellsAreLinearOrConstant) {
   const Mesh tetrahedra = generate("box-tetrahedra", {4, 0.2, 1});
   const Mesh grid = generate("box-hexahedra", {4, 0.2, 1});
