@@ -13,6 +13,7 @@
 #include "cell_forms.h"
 #include "mesh_spots.h"
 #include "plume/mesh/cell_shape.h"
+#include "plume/tests/mesh/test_meshes.h"
 #include "plume/tests/reference/isoparametric.h"
 
 namespace plume::test {
@@ -371,6 +372,65 @@ TEST(InnerScalar, IsSoundInBadMeshes) {
   expect_sound_segments<GridWalker>("sphere", 0, 0.01);
   expect_sound_segments<CellWalker>("box-wedges", 0.2, 0);
   expect_sound_segments<CellWalker>("box-polyhedra", 0.2, 0);
+}
+
+// A prism over a U: its centre lies between the legs, outside of it, and sees few of its faces.
+TEST(InnerScalar, OfAConcavePolyhedronIsTheLinearFieldToo) {
+  const std::vector<std::array<double, 2>> outline{{0, 0}, {3, 0}, {3, 3}, {2, 3},
+                                                   {2, 1}, {1, 1}, {1, 3}, {0, 3}};
+  std::vector<double> points;
+  for (const double z : {0.0, 1.0})
+    for (const auto& [x, y] : outline) points.insert(points.end(), {x, y, z + 0.1 * x});
+  std::vector<std::int32_t> faces{10, 8};
+  for (std::int32_t i = 7; i >= 0; --i) faces.push_back(i);
+  faces.push_back(8);
+  for (std::int32_t i = 0; i < 8; ++i) faces.push_back(8 + i);
+  for (std::int32_t i = 0; i < 8; ++i)
+    faces.insert(faces.end(), {4, i, (i + 1) % 8, 8 + (i + 1) % 8, 8 + i});
+  const Mesh mesh = one_polyhedron(points, faces);
+  auto same = [](const std::array<double, 3>& p) { return p; };
+  const Form<CellWalker> form(mapped(mesh, same, linear_field));
+  ASSERT_EQ(form.mesh.cell_count(), 1u);
+  const double range = form.field.high - form.field.low;
+  MeshSpots spots(form.user, bounds_of(form.user.points), 8);
+  std::size_t cubic = 0, all = 0;
+  for (int i = 0; i < 3000; ++i) {
+    const Ray ray = ray_towards(spots.around(), spots.inside());
+    for (const Segment& s : form.segments(ray, ScalarOrder::cubic)) {
+      ++all;
+      cubic += s.order == ScalarOrder::cubic ? 1 : 0;
+      for (const double share : {0.2, 0.5, 0.9}) {
+        std::array<double, 3> place;
+        const double t = s.t_in + share * (s.t_out - s.t_in);
+        for (std::size_t a = 0; a < 3; ++a) place[a] = ray.origin[a] + t * ray.direction[a];
+        ASSERT_NEAR(scalar_at(s, share), linear_field(place), 1e-6 * range) << "ray " << i;
+      }
+    }
+  }
+  EXPECT_GT(all, 1000u);
+  EXPECT_GT(2 * cubic, all);
+}
+
+TEST(CellShape, IsWhatIsThereAndNotWhatItIsCalled) {
+  auto shape = [](const Mesh& mesh) {
+    const auto walkable =
+        make_walkable_cells(mesh, select_field(mesh), check_structure(mesh), true);
+    EXPECT_EQ(walkable.cell_count(), 1u);
+    return shape_of(walkable, 0).type;
+  };
+  auto hexahedron = [&](std::vector<std::int32_t> ids) {
+    return shape(make_mesh(CellType::hexahedron, cube_points(), std::move(ids)));
+  };
+  EXPECT_EQ(hexahedron({0, 1, 2, 3, 4, 5, 6, 7}), CellType::hexahedron);
+  EXPECT_EQ(hexahedron({0, 1, 2, 2, 4, 5, 6, 6}), CellType::wedge);
+  EXPECT_EQ(hexahedron({0, 1, 2, 3, 4, 4, 4, 4}), CellType::pyramid);
+  EXPECT_EQ(hexahedron({0, 1, 2, 2, 4, 4, 4, 4}), CellType::tetrahedron);
+  EXPECT_EQ(hexahedron({0, 1, 2, 2, 4, 5, 6, 7}), CellType::polyhedron);  // one edge collapsed
+  EXPECT_EQ(shape(make_mesh(CellType::voxel, cube_points(), {0, 1, 3, 2, 4, 5, 7, 6})),
+            CellType::hexahedron);
+  EXPECT_EQ(shape(one_polyhedron(cube_points(), {6, 4, 0, 3, 2, 1, 4, 4, 5, 6, 7, 4, 0, 1, 5, 4,
+                                                 4, 1, 2, 6, 5, 4, 2, 3, 7, 6, 4, 3, 0, 4, 7})),
+            CellType::hexahedron);
 }
 
 TEST(CellShape, IsToldFromTheFaces) {
