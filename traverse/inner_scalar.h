@@ -4,15 +4,14 @@
 /// |---|---|
 /// | tetrahedron | linear |
 /// | hexahedron (a parallelepiped: trilinear), wedge, pyramid | isoparametric (isoparametric.h) |
-/// | everything else | linear from the cell's centre (the mean of its points) to each of its faces
-/// |
+/// | everything else | linear from the cell's centre to its faces |
 ///
-/// The last is linear over tetrahedra between the centre of the cell, the centre of a face and an
-/// edge (Bailey, Adams, Yang, Zika, "A piecewise linear finite element discretization of the
-/// diffusion equation for arbitrary polyhedral grids", Journal of Computational Physics 227, 2008,
-/// section 2), but over a quadrilateral they make one pyramid, which is isoparametric. On a face
-/// all of these are what the face is measured by (measure.h), so cells agree with their neighbours.
-/// A linear field is reproduced by all.
+/// The last is linear over tetrahedra between the centre of the cell, the centre of a face (means
+/// of their points) and an edge (Bailey, Adams, Yang, Zika, "A piecewise linear finite element
+/// discretization of the diffusion equation for arbitrary polyhedral grids", Journal of
+/// Computational Physics 227, 2008), but over a quadrilateral they make one pyramid, which is
+/// isoparametric. On a face all of these are what the face is measured by (measure.h), so cells
+/// agree with their neighbours. A linear field is reproduced by all.
 #pragma once
 
 #include <array>

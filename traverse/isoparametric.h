@@ -209,7 +209,7 @@ inline double largest(const Place& p) {
 /// The parameters at which the map is at `place`. Affine maps are solved. For others Newton's
 /// method, its steps halved until the next one would be shorter (the natural monotonicity test,
 /// which no affine change of coordinates changes, so that flat cells are as good as any: Deuflhard,
-/// "Newton Methods for Nonlinear Problems", 2004, section 3.3).
+/// "Newton Methods for Nonlinear Problems", 2004, chapter 3).
 ///
 /// Ends where the correction that is left, with the last derivatives, is below kParameterTolerance.
 /// Nothing where 20 steps do not get there, where a step would have to be below 1/64 of Newton's,
