@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "plume/preint/compositing.h"
+#include "plume/preint/scalar_polynomial.h"
 #include "plume/preint/transfer_function.h"
 #include "plume/traverse/segment.h"
 
@@ -16,53 +17,90 @@ inline float segment_length(const Segment& segment) {
   return static_cast<float>(segment.t_out - segment.t_in);
 }
 
+/// The scalar along a segment of order 2 or 3.
+inline ScalarPolynomial polynomial_of(const Segment& segment) {
+  return segment.order == ScalarOrder::quadratic
+             ? ScalarPolynomial::quadratic(segment.s_in, segment.inner[0], segment.s_out)
+             : ScalarPolynomial::cubic(segment.s_in, segment.inner[0], segment.inner[1],
+                                       segment.s_out);
+}
+
+/// Calls visit(const Segment&) for parts of the segment that are linear within `tolerance` (see
+/// ScalarPolynomial), in turn, until it returns false; returns whether all were visited.
+template <class Visit>
+bool for_each_linear_part(const Segment& segment, double tolerance, Visit&& visit) {
+  if (segment.order == ScalarOrder::linear) return visit(segment);
+  const double length = segment.t_out - segment.t_in;
+  Segment part = segment;
+  part.order = ScalarOrder::linear;
+  return polynomial_of(segment).for_each_linear_piece(
+      tolerance, [&](double, double u_out, float s_in, float s_out) {
+        part.t_out = u_out == 1 ? segment.t_out : segment.t_in + u_out * length;
+        part.s_in = s_in;
+        part.s_out = s_out;
+        const bool more = visit(static_cast<const Segment&>(part));
+        part.t_in = part.t_out;
+        return more;
+      });
+}
+
 /// Emission and absorption.
 template <class Integrator>
 struct VolumePixel {
   const Integrator& integrator;
   float early_termination;
+  double tolerance;  ///< of the linear parts of segments
   Compositor compositor{};
 
   bool operator()(const Segment& segment) {
-    compositor.add(integrator.integrate(segment.s_in, segment.s_out, segment_length(segment)));
-    return !compositor.opaque(early_termination);
+    return for_each_linear_part(segment, tolerance, [this](const Segment& part) {
+      compositor.add(integrator.integrate(part.s_in, part.s_out, segment_length(part)));
+      return !compositor.opaque(early_termination);
+    });
   }
 };
 
-/// The greatest scalar. NaN is passed over; -infinity where there is none.
+/// The greatest scalar, that of the extrema inside of cells too. NaN is passed over; -infinity
+/// where there is none.
 struct MaximumPixel {
   float maximum = -std::numeric_limits<float>::infinity();
 
   bool operator()(const Segment& segment) {
-    maximum = std::fmax(maximum, std::fmax(segment.s_in, segment.s_out));
+    maximum = std::fmax(maximum, segment.order == ScalarOrder::linear
+                                     ? std::fmax(segment.s_in, segment.s_out)
+                                     : polynomial_of(segment).maximum());
     return true;
   }
 };
 
-/// The integral of the scalar, exact where it is linear along a segment. NaN counts as nothing.
+/// The integral of the scalar, exact for a segment's polynomial. NaN counts as nothing.
 struct IntegralPixel {
   double integral = 0;
 
   bool operator()(const Segment& segment) {
-    const double mean = 0.5 * (static_cast<double>(segment.s_in) + segment.s_out);
+    const double mean = segment.order == ScalarOrder::linear
+                            ? 0.5 * (static_cast<double>(segment.s_in) + segment.s_out)
+                            : polynomial_of(segment).mean();
     if (!std::isnan(mean)) integral += mean * (segment.t_out - segment.t_in);
     return true;
   }
 };
 
-/// The first segment that is not transparent.
+/// The first segment, or linear part of one, that is not transparent.
 template <class Integrator>
 struct FirstPixel {
   const Integrator& integrator;
+  double tolerance;  ///< of the linear parts of segments
   double depth = std::numeric_limits<double>::infinity();
   std::uint32_t cell = 0xFFFFFFFFu;
 
   bool operator()(const Segment& segment) {
-    if (!(integrator.optical_depth(segment.s_in, segment.s_out, segment_length(segment)) > 0))
-      return true;
-    depth = segment.t_in;
-    cell = segment.cell;
-    return false;
+    return for_each_linear_part(segment, tolerance, [this](const Segment& part) {
+      if (!(integrator.optical_depth(part.s_in, part.s_out, segment_length(part)) > 0)) return true;
+      depth = part.t_in;
+      cell = part.cell;
+      return false;
+    });
   }
 };
 
@@ -75,8 +113,10 @@ struct ChannelPixel {
 
   void operator()(const Segment& segment) {
     if (!(first.depth < std::numeric_limits<double>::infinity())) first(segment);
-    optical_depth +=
-        first.integrator.optical_depth(segment.s_in, segment.s_out, segment_length(segment));
+    for_each_linear_part(segment, first.tolerance, [this](const Segment& part) {
+      optical_depth += first.integrator.optical_depth(part.s_in, part.s_out, segment_length(part));
+      return true;
+    });
     ++cells;
   }
 };

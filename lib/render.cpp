@@ -56,6 +56,9 @@ void check(const RenderSettings& settings) {
     throw Error(fmt::format("{} threads: it must be 1 or more, or 0 for all", settings.threads));
   if (settings.integrator.samples < 1)
     throw Error(fmt::format("{} samples per segment: at least 1", settings.integrator.samples));
+  if (settings.order < ScalarOrder::linear || settings.order > ScalarOrder::cubic)
+    throw Error(fmt::format("order {}: it must be 1 (linear), 2 (quadratic) or 3 (cubic)",
+                            static_cast<int>(settings.order)));
   for (const std::string& channel : settings.channels)
     if (std::find(kChannels.begin(), kChannels.end(), channel) == kChannels.end())
       throw Error(
@@ -77,7 +80,10 @@ struct Counts {
 class Frame {
  public:
   Frame(const Scene& scene, const Camera& camera, const RenderSettings& settings)
-      : scene_(scene), settings_(settings), rays_(camera, settings.width, settings.height) {
+      : scene_(scene),
+        settings_(settings),
+        rays_(camera, settings.width, settings.height),
+        tolerance_(1e-4 * (static_cast<double>(scene.field().high) - scene.field().low)) {
     image_.width = settings.width;
     image_.height = settings.height;
     image_.rgba.assign(4 * pixels(), 0);
@@ -145,9 +151,12 @@ class Frame {
     });
   }
 
-  // Whether packets can render this frame: volume, closed form, nothing besides.
+  // Whether packets can render this frame: linear segments, volume, closed form, nothing besides.
   bool by_packets() const {
-    return !settings_.scalar_twin && settings_.mode == Mode::volume &&
+    const bool linear = settings_.order == ScalarOrder::linear ||
+                        scene_.field().association == Association::cell ||
+                        std::string(scene_.form()) == "tetrahedra";
+    return linear && !settings_.scalar_twin && settings_.mode == Mode::volume &&
            settings_.integrator.kind == IntegratorKind::closed_form && settings_.channels.empty();
   }
 
@@ -188,7 +197,7 @@ class Frame {
                            std::size_t index) {
     if (!(depth_ || cell_id_ || whole_rays()))
       return shade(walkable, integrator, ray, index, [](const Segment&) { return false; });
-    ChannelPixel<Integrator> channels{{integrator}};
+    ChannelPixel<Integrator> channels{{integrator, tolerance_}};
     const bool whole = whole_rays();
     const TraceResult result = shade(walkable, integrator, ray, index, [&](const Segment& segment) {
       channels(segment);
@@ -212,17 +221,19 @@ class Frame {
                     std::size_t index, const Besides& besides) {
     auto follow = [&](auto& pixel) {
       bool more = true;
-      return trace(walkable.mesh, walkable.boundary, ray, [&](const Segment& segment) {
+      auto visit = [&](const Segment& segment) {
         const bool go_on = besides(segment);
         if (more) more = pixel(segment);
         return more || go_on;
-      });
+      };
+      return trace(walkable.mesh, walkable.boundary, ray, visit, settings_.order);
     };
     float* rgba = &image_.rgba[4 * index];
     TraceResult result;
     switch (settings_.mode) {
       case Mode::volume: {
-        VolumePixel<Integrator> pixel{integrator, static_cast<float>(settings_.early_termination)};
+        VolumePixel<Integrator> pixel{integrator, static_cast<float>(settings_.early_termination),
+                                      tolerance_};
         result = follow(pixel);
         for (std::size_t c = 0; c < 3; ++c) rgba[c] = static_cast<float>(pixel.compositor.rgb[c]);
         rgba[3] = static_cast<float>(pixel.compositor.alpha());
@@ -248,7 +259,7 @@ class Frame {
         break;
       }
       case Mode::depth: {
-        FirstPixel<Integrator> pixel{integrator};
+        FirstPixel<Integrator> pixel{integrator, tolerance_};
         result = follow(pixel);
         image_.channels[*raw_].values[index] = static_cast<float>(pixel.depth);
         rgba[3] = pixel.depth < kInfinity ? 1.0f : 0.0f;
@@ -261,6 +272,7 @@ class Frame {
   const Scene& scene_;
   const RenderSettings& settings_;
   PixelRays rays_;
+  double tolerance_;  // of the linear parts of segments, in the field's unit
   Image image_;
   std::optional<std::size_t> raw_, depth_, optical_depth_, cell_id_, cell_count_;
 };
@@ -286,6 +298,18 @@ class ProgressReport {
   std::atomic<bool> cancelled_ = false;
 };
 
+const char* describe_order(ScalarOrder order) {
+  switch (order) {
+    case ScalarOrder::linear:
+      break;
+    case ScalarOrder::quadratic:
+      return "order 2: quadratic, by one value inside of each cell";
+    case ScalarOrder::cubic:
+      return "order 3: cubic, by two values inside of each cell";
+  }
+  return "linear between a cell's faces";
+}
+
 std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings& settings) {
   std::vector<std::string> plan;
   const std::string form = scene.form();
@@ -295,10 +319,13 @@ std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings&
       : form == "grid"             ? "one curvilinear grid: neighbours follow from the indices"
       : form == "rectilinear grid" ? "cuboids between planes: nothing is stored but the scalars"
                                    : "mixed cells: faces and their two sides are stored"));
+  if (scene.cell_data_averaged())
+    plan.push_back("cell data: averaged to the points, weighted by 1 / distance");
   plan.push_back(fmt::format("scalar: {}, {}", scene.field().name,
                              scene.field().association == Association::cell
                                  ? "constant in each cell, as the field is cell-centred"
-                                 : "linear between a cell's faces"));
+                             : form == "tetrahedra" ? "linear between a cell's faces"
+                                                    : describe_order(settings.order)));
   switch (settings.mode) {
     case Mode::volume: {
       constexpr const char* kNames[] = {"midpoint", "table", "closed form"};
@@ -333,7 +360,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
     result.statistics.plan.push_back(
         frame.by_packets() ? fmt::format("rays: in packets, {}", packet_instruction_set())
                            : "rays: one by one (packets serve the volume mode by the closed form, "
-                             "without further channels)");
+                             "at order 1, without further channels)");
   if (frame.whole_rays() && settings.mode == Mode::volume) {
     effective.early_termination = 0;
     result.statistics.plan.push_back("early termination: off, as a channel needs whole rays");

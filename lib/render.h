@@ -33,6 +33,12 @@ struct RenderSettings {
   int height = 768;  ///< pixels, 1 to 65536
   Mode mode = Mode::volume;
   IntegratorSettings integrator;
+  /// The polynomial that the scalar is taken for inside of cells that are not tetrahedra; see
+  /// traverse/inner_scalar.h. Optics see it in linear parts that differ from it by at most 1e-4 of
+  /// the field's range (see ScalarPolynomial for cells across which it bends too much for that);
+  /// maxima and integrals are exact. Above `linear`, the whole of a cell with a NaN value is
+  /// transparent; a linear segment is where one of the two faces has such a value.
+  ScalarOrder order = ScalarOrder::linear;
   /// A ray ends once it is seen through by no more than this share: a colour channel is off by at
   /// most this times the transfer function's largest value in it. In [0, 1).
   double early_termination = 1e-4;

@@ -7,6 +7,7 @@
 #include "plume/lib/camera.h"
 #include "plume/lib/fitted_map.h"
 #include "plume/lib/scene_body.h"
+#include "plume/mesh/cell_to_point.h"
 #include "plume/mesh/connected_parts.h"
 #include "plume/mesh/error.h"
 #include "plume/mesh/validate.h"
@@ -69,6 +70,16 @@ double fitted_unit_distance(const Scene& scene) {
 Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_unique<Body>()) {
   body_->bounds = check_structure(mesh);
   body_->field = select_field(mesh, options.field);
+  if (body_->field.association == Association::cell && options.cell_data == CellData::averaged) {
+    if (body_->field.not_finite > 0)
+      body_->findings.push_back(
+          {fmt::format("values of '{}' are NaN or infinite; the averages leave them out",
+                       body_->field.name),
+           body_->field.not_finite,
+           {}});
+    body_->field = average_to_points(mesh, body_->field);
+    body_->cell_data_averaged = true;
+  }
   const ScalarField& field = body_->field;
   body_->default_map = fitted_color_map(field.values);
   if (field.not_finite > 0)
@@ -105,6 +116,7 @@ Scene& Scene::operator=(Scene&&) noexcept = default;
 
 const Bounds& Scene::bounds() const { return body_->bounds; }
 const ScalarField& Scene::field() const { return body_->field; }
+bool Scene::cell_data_averaged() const { return body_->cell_data_averaged; }
 const std::vector<Finding>& Scene::findings() const { return body_->findings; }
 const ColorMap& Scene::default_color_map() const { return body_->default_map; }
 const TransferFunction& Scene::transfer_function() const { return body_->transfer_function; }
@@ -142,13 +154,15 @@ std::size_t Scene::bytes() const {
   return std::visit([](const auto& w) { return w->mesh.bytes(); }, body_->walkable);
 }
 
-TraceResult Scene::trace(const Ray& ray, const std::function<bool(const Segment&)>& visit) const {
+TraceResult Scene::trace(const Ray& ray, const std::function<bool(const Segment&)>& visit,
+                         ScalarOrder order) const {
   return std::visit(
       [&](const auto& w) {
-        return plume::trace(w->mesh, w->boundary, ray, [&](Segment segment) {
+        auto renumbered = [&](Segment segment) {
           segment.cell = w->mesh.original_cell(segment.cell);
           return visit(segment);
-        });
+        };
+        return plume::trace(w->mesh, w->boundary, ray, renumbered, order);
       },
       body_->walkable);
 }

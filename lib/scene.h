@@ -18,11 +18,19 @@
 
 namespace plume {
 
+/// What a cell-centred field is between the centres of cells.
+enum class CellData : std::uint8_t {
+  constant,  ///< what it says: one value in all of each cell, with jumps between them
+  averaged,  ///< made point data, weighted by 1 / distance; see mesh/cell_to_point.h
+};
+
 struct SceneOptions {
   /// Which field; by default the mesh's active one, else its first.
   FieldRequest field;
   /// Keep the numbers of the user's cells, 4 bytes each; needed for the channel "cell_id".
   bool keep_cell_numbers = false;
+  /// Read where the field is cell-centred.
+  CellData cell_data = CellData::constant;
 };
 
 /// Immutable but for the transfer function; safe to render from several threads.
@@ -38,8 +46,10 @@ class Scene {
 
   const Bounds& bounds() const;
   /// The chosen field: name, association, range, count of values that are not finite. Its values
-  /// are empty: they live in the walkable form.
+  /// are empty: they live in the walkable form. Cell data that was averaged is point data here.
   const ScalarField& field() const;
+  /// Whether the field was cell data and is averaged to the points.
+  bool cell_data_averaged() const;
   /// What was found on the way, in words for users.
   const std::vector<Finding>& findings() const;
   /// "tetrahedra", "grid", "cells" or "rectilinear grid": the form in which the mesh is walked.
@@ -66,8 +76,11 @@ class Scene {
 
   /// Follows a ray and calls `visit` for each segment, front to back, until that returns false.
   /// `Segment::cell` is a number of the user's mesh where keep_cell_numbers was set or the mesh is
-  /// a grid. For programs with an optics of their own; see traverse/trace.h for the guarantees.
-  TraceResult trace(const Ray& ray, const std::function<bool(const Segment&)>& visit) const;
+  /// a grid. Above `linear`, segments have inner values where their cells are not linear
+  /// (scalar_at() gives the scalar anywhere along one). For programs with an optics of their own;
+  /// see traverse/trace.h for the guarantees.
+  TraceResult trace(const Ray& ray, const std::function<bool(const Segment&)>& visit,
+                    ScalarOrder order = ScalarOrder::linear) const;
 
   struct Body;
   /// For render().

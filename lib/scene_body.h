@@ -29,6 +29,7 @@ struct Scene::Body {
       walkable;
   Bounds bounds;
   ScalarField field;
+  bool cell_data_averaged = false;
   std::vector<Finding> findings;
   ColorMap default_map;
   double unit_distance = 1;

@@ -96,6 +96,15 @@ class ShearedFrame {
   /// Distance along the ray, in world units, of a place at this z.
   double t(double z) const { return z * t_per_z_ + t_offset_; }
 
+  /// The ray's place at this z, in local coordinates: where the shear has x = y = 0.
+  std::array<double, 3> local(double z) const {
+    std::array<double, 3> p;
+    p[x_] = offset_x_ + static_cast<double>(slope_x_) * z;
+    p[y_] = offset_y_ + static_cast<double>(slope_y_) * z;
+    p[z_] = z;
+    return p;
+  }
+
   /// 1 where z grows along the ray, -1 where it falls: a face of winding w about the ray, seen from
   /// outside, is left through where w * sign() > 0 and entered where w * sign() < 0.
   int sign() const { return sign_; }

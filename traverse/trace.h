@@ -3,26 +3,39 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "plume/traverse/boundary.h"
+#include "plume/traverse/inner_scalar.h"
 #include "plume/traverse/segment.h"
 
 namespace plume {
 
-/// Shortens a segment to [from, to]; the scalar is linear along it. Requires that they overlap.
+/// Shortens a segment to [from, to]; the scalar stays the same polynomial along it. Requires that
+/// they overlap.
 inline void cut(Segment& segment, double from, double to) {
   const Segment whole = segment;
-  auto scalar_at = [&whole](double t) {
-    const double share = (t - whole.t_in) / (whole.t_out - whole.t_in);
-    return static_cast<float>(whole.s_in + share * (whole.s_out - whole.s_in));
-  };
+  auto share_of = [&whole](double t) { return (t - whole.t_in) / (whole.t_out - whole.t_in); };
+  double first = 0, last = 1;
   if (whole.t_in < from) {
+    first = share_of(from);
     segment.t_in = from;
-    segment.s_in = scalar_at(from);
+    segment.s_in = static_cast<float>(scalar_at(whole, first));
   }
   if (whole.t_out > to) {
+    last = share_of(to);
     segment.t_out = to;
-    segment.s_out = scalar_at(to);
+    segment.s_out = static_cast<float>(scalar_at(whole, last));
+  }
+  if (whole.order == ScalarOrder::linear || (first == 0 && last == 1)) return;
+  auto inner = [&](double share) {
+    return static_cast<float>(scalar_at(whole, first + share * (last - first)));
+  };
+  if (whole.order == ScalarOrder::quadratic) {
+    segment.inner[0] = inner(0.5);
+  } else {
+    segment.inner[0] = inner(1.0 / 3);
+    segment.inner[1] = inner(2.0 / 3);
   }
 }
 
@@ -34,11 +47,13 @@ inline void cut(Segment& segment, double from, double to) {
 /// would have to go back, the segment has length zero instead. A mesh that is not convex is left
 /// and entered again; passages come in the order of their entries. What one passage has covered the
 /// next does not cover again (parts that overlap, or blocks that touch along the ray): no length is
-/// counted twice. Where a segment is cut (there, at t_min, at t_max) its scalar is interpolated
-/// linearly.
+/// counted twice. Where a segment is cut (there, at t_min, at t_max) its scalar is that of the
+/// whole.
+///
+/// Above `linear`, segments get inner values where their cells are not linear (inner_scalar.h).
 template <class Walker, class Visit>
 TraceResult trace(const typename Walker::Mesh& mesh, const BoundaryIndex<Walker>& boundary,
-                  const Ray& ray, Visit&& visit) {
+                  const Ray& ray, Visit&& visit, ScalarOrder order = ScalarOrder::linear) {
   TraceResult result;
   ShearedFrame frame;
   if (!frame.set(ray, mesh.frame)) return result;
@@ -55,6 +70,7 @@ TraceResult trace(const typename Walker::Mesh& mesh, const BoundaryIndex<Walker>
     double t_in = frame.t(entry->place.z);
     if (t_in > ray.t_max) break;
     ++result.entries;
+    double z_in = entry->place.z;
     float s_in = entry->place.scalar;
     walker.enter(mesh.boundary[entry->boundary], entry->rank);
     std::uint64_t steps = 0;
@@ -66,11 +82,16 @@ TraceResult trace(const typename Walker::Mesh& mesh, const BoundaryIndex<Walker>
         return result;
       }
       Segment segment{t_in, std::max(t_in, frame.t(exit->z)), s_in, exit->scalar, cell};
+      const double z_from = std::exchange(z_in, exit->z);
       t_in = segment.t_out;
       s_in = segment.s_out;
       if (!mesh.cell_values.empty()) segment.s_in = segment.s_out = mesh.cell_values[cell];
       if (segment.t_out < seen_until) continue;
       ++result.cells;
+      // Where the ray would have to go back, its ends are not where the scalars are.
+      if (order != ScalarOrder::linear && segment.t_in == frame.t(z_from) &&
+          segment.t_out == frame.t(exit->z))
+        sample_inside(mesh, frame, z_from, exit->z, order, segment);
       cut(segment, seen_until, ray.t_max);
       if (!visit(static_cast<const Segment&>(segment))) {
         result.end = WalkEnd::stopped;

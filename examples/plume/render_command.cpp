@@ -23,7 +23,8 @@ namespace {
 struct RenderArguments {
   std::string mesh, solution, output = "picture.png", field, association, size = "1024x768";
   std::string view = "iso", camera, transfer_function, transfer_range, mode = "volume";
-  std::string integrator = "closed-form", background = "white", stats;
+  std::string integrator = "closed-form", order = "1", cell_data = "constant", background = "white",
+              stats;
   std::vector<std::string> channels;
   double azimuth = 0, elevation = 0, zoom = 1, opacity_scale = 1, view_angle = 0;
   double unit_distance = 0, early_termination = RenderSettings{}.early_termination;
@@ -39,6 +40,10 @@ const std::vector<std::pair<std::string, IntegratorKind>> kIntegrators{
     {"closed-form", IntegratorKind::closed_form},
     {"table", IntegratorKind::table},
     {"midpoint", IntegratorKind::midpoint}};
+const std::vector<std::pair<std::string, CellData>> kCellData{{"constant", CellData::constant},
+                                                              {"averaged", CellData::averaged}};
+const std::vector<std::pair<std::string, ScalarOrder>> kOrders{
+    {"1", ScalarOrder::linear}, {"2", ScalarOrder::quadratic}, {"3", ScalarOrder::cubic}};
 
 template <class T>
 std::vector<std::string> names_of(const std::vector<std::pair<std::string, T>>& choices) {
@@ -160,6 +165,7 @@ void run(const RenderArguments& args) {
   scene_options.field.name = args.field;
   if (args.association == "point") scene_options.field.association = Association::point;
   if (args.association == "cell") scene_options.field.association = Association::cell;
+  scene_options.cell_data = chosen(kCellData, args.cell_data);
   scene_options.keep_cell_numbers =
       std::find(args.channels.begin(), args.channels.end(), "cell_id") != args.channels.end();
   auto scene = [&] {
@@ -173,10 +179,12 @@ void run(const RenderArguments& args) {
   choose_transfer_function(scene, args, console);
   const double ms_build = watch.lap();
   const ScalarField& field = scene.field();
-  console.say(fmt::format("{}: {} cells, coloured by '{}' ({} data, {:g} to {:g})", args.mesh,
+  console.say(fmt::format("{}: {} cells, coloured by '{}' ({}, {:g} to {:g})", args.mesh,
                           with_separators(scene.cell_count()), field.name,
-                          field.association == Association::point ? "point" : "cell", field.low,
-                          field.high));
+                          scene.cell_data_averaged()                ? "cell data averaged to points"
+                          : field.association == Association::point ? "point data"
+                                                                    : "cell data",
+                          field.low, field.high));
   for (const Finding& finding : scene.findings()) console.say(describe(finding));
 
   RenderSettings settings;
@@ -185,6 +193,7 @@ void run(const RenderArguments& args) {
   settings.mode = chosen(kModes, args.mode);
   settings.integrator.kind = chosen(kIntegrators, args.integrator);
   settings.integrator.samples = args.samples;
+  settings.order = chosen(kOrders, args.order);
   settings.early_termination = args.early_termination;
   settings.threads = args.threads;
   settings.channels = args.channels;
@@ -212,6 +221,7 @@ void run(const RenderArguments& args) {
 
   if (!args.stats.empty()) {
     const double cells = static_cast<double>(scene.cell_count());
+    const bool of_cells = field.association == Association::cell || scene.cell_data_averaged();
     const nlohmann::json stats{
         {"rays", statistics.rays},
         {"rays_hit", statistics.rays_hit},
@@ -227,10 +237,12 @@ void run(const RenderArguments& args) {
         {"points", scene.point_count()},
         {"boundary_faces", scene.boundary_face_count()},
         {"field", field.name},
-        {"field_association", field.association == Association::point ? "point" : "cell"},
+        {"field_association", of_cells ? "cell" : "point"},
+        {"cell_data", of_cells ? nlohmann::json(args.cell_data) : nlohmann::json()},
         {"field_range", {field.low, field.high}},
         {"values_not_finite", field.not_finite},
         {"size", {size.width, size.height}},
+        {"order", static_cast<int>(settings.order)},
         {"plan", statistics.plan},
         {"findings", to_json(scene.findings())}};
     write_whole_file(args.stats, stats.dump(2) + "\n");
@@ -253,6 +265,10 @@ void add_render(CLI::App& app) {
                       "What to show: NAME, NAME:component or NAME:magnitude (the active field)");
   command->add_option("--association", args->association, "Where a name is on both: point or cell")
       ->check(CLI::IsMember({"point", "cell"}));
+  command
+      ->add_option("--cell-data", args->cell_data,
+                   "Values of cells: constant in each, or averaged to the points (constant)")
+      ->check(CLI::IsMember(names_of(kCellData)));
   command->add_option("--time-step", args->time_step, "Which step of several, from 0 (the last)")
       ->check(CLI::NonNegativeNumber);
   command->add_flag("--merge-points", args->merge_points,
@@ -285,6 +301,11 @@ void add_render(CLI::App& app) {
       ->check(CLI::IsMember(names_of(kIntegrators)));
   command->add_option("--samples", args->samples, "Samples a segment, for midpoint (1)")
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--order", args->order,
+                   "The scalar inside of a cell: 1 linear, 2 quadratic, 3 cubic; tetrahedra are "
+                   "linear (1)")
+      ->check(CLI::IsMember(names_of(kOrders)));
   command
       ->add_option("--early-termination", args->early_termination,
                    "Transmittance at which a ray ends (1e-4)")

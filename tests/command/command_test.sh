@@ -67,6 +67,11 @@ done
 for integrator in closed-form table midpoint; do
   ok "integrator $integrator" "$plume" render body.vts --integrator $integrator -o i.png --size 40x30 --quiet
 done
+for order in 1 2 3; do
+  ok "order $order" "$plume" render mixed.vtu --order $order -o o$order.png --size 40x30 --stats o.json --quiet
+  ok "order $order is in the statistics" json o.json "j['order']==$order"
+done
+ok "the order is in the plan" json o.json "any('order 3: cubic' in line for line in j['plan'])"
 ok "an EXR with channels" "$plume" render mixed.vtu -o a.exr --size 40x30 --quiet \
   --channels depth,optical_depth,cell_id,cell_count
 ok "a view that begins with a minus" "$plume" render box.vtu --view -x -o v.png --size 20x20 --quiet
@@ -76,6 +81,11 @@ ok "a magnitude" "$plume" render body.vts --field velocity:magnitude -o f.png --
 ok "the magnitude is named" json f.json "j['field']=='velocity:magnitude'"
 ok "cell data" "$plume" render box.vtu --field cell_radius -o f.png --size 20x20 --stats f.json --quiet
 ok "the association is named" json f.json "j['field_association']=='cell'"
+ok "cell data is constant in each cell" json f.json "j['cell_data']=='constant'"
+ok "averaged cell data" "$plume" render box.vtu --field cell_radius --cell-data averaged --order 3 -o f.png --size 20x20 --stats f.json
+cp err.txt said.txt
+ok "that it is averaged is said" grep -q "cell data averaged to points" said.txt
+ok "and written" json f.json "j['field_association']=='cell' and j['cell_data']=='averaged' and any('averaged to the points' in line for line in j['plan'])"
 ok "a camera" "$plume" render box.vtu --camera 0.5,0.5,5,0.5,0.5,0.5,0,1,0 -o c.png --size 20x20 --quiet
 ok "a camera inside" "$plume" render box.vtu --camera 0.5,0.5,0.5,1,0.6,0.7 --view-angle 80 -o c.png \
   --size 20x20 --stats c.json --quiet
@@ -123,6 +133,8 @@ ok "and for more of them" cmp t1.png t3.png
 refused "no arguments" 2 "subcommand" "$plume"
 refused "an unknown option" 2 "--colour" "$plume" render box.vtu --colour red
 refused "an unknown mode" 2 "mode" "$plume" render box.vtu --mode xray
+refused "an unknown kind of cell data" 2 "--cell-data|smooth|constant|averaged" "$plume" render box.vtu --cell-data smooth
+refused "an unknown order" 2 "--order|cubic|1,2,3" "$plume" render box.vtu --order cubic
 refused "a missing file" 1 "gone.vtu" "$plume" render gone.vtu -o x.png
 refused "an unknown field" 1 "box.vtu|pressure|linear|radius|waves" "$plume" render box.vtu --field pressure -o x.png
 refused "an unknown component" 1 "velocity|7|0 to 2" "$plume" render body.vts --field velocity:7 -o x.png
