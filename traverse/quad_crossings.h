@@ -1,0 +1,117 @@
+/// Which crossings a ray has with a quadrilateral: a function of its four corners in the sheared
+/// frame, in the order of its loop, and of nothing else. Both cells at a face go around it from the
+/// same corner in the same direction, so they agree, bit for bit, on how often and in which
+/// directions it is crossed, whatever the rounding.
+///
+/// Three surfaces span the loop, each with its own rule. Whatever the rule, the directions sum to
+/// the loop's winding number about the ray, so the crossings of a closed cell's faces balance.
+#pragma once
+
+#include "plume/traverse/sheared_frame.h"
+
+namespace plume {
+
+/// The corners of a face, in the order of its loop.
+struct Quad {
+  const ShearedPoint& a;
+  const ShearedPoint& b;
+  const ShearedPoint& c;
+  const ShearedPoint& d;
+};
+
+/// The crossings of a quadrilateral, at most two. Their rank is their place in `direction`: 1 where
+/// the loop winds about the ray positively, -1 where it does negatively, 0 for no crossing.
+struct QuadCrossings {
+  int direction[2] = {0, 0};
+
+  /// In through a twisted face and out again.
+  bool grazed() const { return direction[0] * direction[1] < 0; }
+};
+
+/// -2 to 2; beyond 1 by rounding only.
+inline int winding(const Quad& q) {
+  return crossing(q.a, q.b) + crossing(q.b, q.c) + crossing(q.c, q.d) + crossing(q.d, q.a);
+}
+
+/// The loop of a planar quadrilateral: as many crossings as its winding number. (A planar one that
+/// is concave or a bow-tie has parts where the bilinear patch is folded, but both its crossings
+/// are then at the same place.)
+inline QuadCrossings planar_crossings(const Quad& q) {
+  const int w = winding(q);
+  const int direction = (w > 0) - (w < 0);
+  return {{direction, w * w > 1 ? direction : 0}};
+}
+
+/// Twice the area of the triangle of the ray and an edge: exact but for one rounding, with and
+/// without fused multiply-add, as the products of two floats are exact.
+inline double edge_product(const ShearedPoint& p, const ShearedPoint& q) {
+  return static_cast<double>(p.x) * static_cast<double>(q.y) -
+         static_cast<double>(q.x) * static_cast<double>(p.y);
+}
+
+/// Bernstein coefficients (the middle one doubled) of the two quadratics whose roots in [0, 1] are
+/// the v and the u of a patch's crossings: the products of the lines of constant v (or u) through
+/// the patch. Both have the same discriminant.
+struct PatchQuadratics {
+  double v0, v1, v2;
+  double u0, u1, u2;
+
+  explicit PatchQuadratics(const Quad& q) {
+    const double ac = edge_product(q.a, q.c), bd = edge_product(q.b, q.d);
+    v0 = edge_product(q.a, q.b);
+    v1 = ac - bd;
+    v2 = edge_product(q.d, q.c);
+    u0 = edge_product(q.a, q.d);
+    u1 = ac + bd;
+    u2 = edge_product(q.b, q.c);
+  }
+};
+
+/// Whether some of the six lines between corners pass the ray on its right, and some on its left.
+/// If not, the ray passes outside of their convex hull, and so of any surface within.
+inline bool may_be_grazed(const Quad& q) {
+  bool right = false, left = false;
+  auto add = [&](const ShearedPoint& s, const ShearedPoint& t) {
+    if (s.up() == t.up()) return;
+    ((s.up() ? right_of_ray(t, s) : right_of_ray(s, t)) != 0 ? right : left) = true;
+  };
+  add(q.a, q.c);
+  add(q.b, q.d);
+  add(q.a, q.b);
+  add(q.c, q.d);
+  if (right && left) return true;
+  add(q.b, q.c);
+  add(q.d, q.a);
+  return right && left;
+}
+
+/// Whether the ray crosses the bilinear patch of a loop of winding 0 twice, once in each direction.
+///
+/// A quadratic has two roots between 0 and 1 if and only if its outer Bernstein coefficients have
+/// the same sign, the middle one the other, and the square of the middle one exceeds the product of
+/// the outer ones. Nothing is divided and no root taken. Where the patch only just touches the ray
+/// the answer hangs on rounding, of the vertices above all; but it is the same from both sides.
+inline bool is_grazed(const Quad& q) {
+  if (!may_be_grazed(q)) return false;
+  const PatchQuadratics k(q);
+  const bool two_v = (k.v0 > 0 && k.v1 < 0 && k.v2 > 0) || (k.v0 < 0 && k.v1 > 0 && k.v2 < 0);
+  const bool two_u = (k.u0 > 0 && k.u1 < 0 && k.u2 > 0) || (k.u0 < 0 && k.u1 > 0 && k.u2 < 0);
+  return two_v && two_u && k.v1 * k.v1 > 4 * (k.v0 * k.v2);
+}
+
+/// The bilinear patch through the four corners. Inside of it there is at most one crossing in each
+/// direction (measure_quad.h), so the winding number says all but whether there are none or both.
+inline QuadCrossings patch_crossings(const Quad& q) {
+  const QuadCrossings crossings = planar_crossings(q);
+  if (crossings.direction[0] == 0 && is_grazed(q)) return {{1, -1}};
+  return crossings;
+}
+
+/// The triangles a, b, c and a, c, d: one crossing for each that winds about the ray.
+inline QuadCrossings triangle_crossings(const Quad& q) {
+  const int ac = crossing(q.a, q.c);
+  return {
+      {crossing(q.a, q.b) + crossing(q.b, q.c) - ac, ac + crossing(q.c, q.d) + crossing(q.d, q.a)}};
+}
+
+}  // namespace plume
