@@ -8,10 +8,12 @@
 
 #include <array>
 #include <cstdint>
+#include <cstdlib>
 #include <optional>
 
 #include "plume/mesh/walkable_grid.h"
 #include "plume/traverse/grid_faces.h"
+#include "plume/traverse/hexahedron_windings.h"
 #include "plume/traverse/pair_crossings.h"
 
 namespace plume {
@@ -27,6 +29,7 @@ class BasicGridWalker {
       : mesh_(mesh), frame_(frame) {
     const std::uint32_t ni = mesh.dimensions[0], nij = ni * mesh.dimensions[1];
     step_ = {0, 1, ni, 1 + ni, nij, 1 + nij, ni + nij, 1 + ni + nij};
+    cell_step_ = {1, ni - 1, (ni - 1) * (mesh.dimensions[1] - 1)};
   }
 
   /// Calls visit(place, rank) for each way in through a boundary face.
@@ -35,10 +38,10 @@ class BasicGridWalker {
     const std::uint32_t first = mesh_.first_point(boundary.cell);
     std::array<ShearedPoint, 4> p;
     for (std::size_t i = 0; i < 4; ++i)
-      p[i] = frame_(mesh_.points[first + step_[kLoop[boundary.face][i]]]);
+      p[i] = frame_(mesh_.points[first + step_[kHexahedronLoop[boundary.face][i]]]);
     const Quad quad{p[0], p[1], p[2], p[3]};
     const bool planar = is_planar(first, boundary.face);
-    const QuadCrossings crossings = Faces::crossings(quad, planar);
+    const QuadCrossings crossings = Faces::crossings(quad, winding(quad), planar);
     for (std::uint32_t rank = 0; rank < 2; ++rank)
       if (outwards(boundary.face) * crossings.direction[rank] < 0)
         visit(Faces::measure(quad, crossings, static_cast<int>(rank), planar), rank);
@@ -46,6 +49,8 @@ class BasicGridWalker {
 
   void enter(const Boundary& boundary, std::uint32_t rank) {
     cell_ = boundary.cell;
+    index_ = mesh_.cell_index(cell_);
+    first_ = mesh_.first_point(cell_);
     face_ = boundary.face;
     rank_ = rank;
   }
@@ -53,66 +58,75 @@ class BasicGridWalker {
   std::uint32_t cell() const { return cell_; }
 
   std::optional<Crossing> leave() {
-    const std::uint32_t first = mesh_.first_point(cell_);
     std::array<ShearedPoint, 8> corner;
-    unsigned up = 0;
-    for (std::size_t c = 0; c < 8; ++c) {
-      corner[c] = frame_(mesh_.points[first + step_[c]]);
-      up |= static_cast<unsigned>(corner[c].up()) << c;
-    }
+    for (std::size_t c = 0; c < 8; ++c) corner[c] = frame_(mesh_.points[first_ + step_[c]]);
     auto quad = [&](std::size_t face) {
-      const auto& loop = kLoop[face];
+      const auto& loop = kHexahedronLoop[face];
       return Quad{corner[loop[0]], corner[loop[1]], corner[loop[2]], corner[loop[3]]};
     };
 
-    std::array<QuadCrossings, 6> faces;
+    const HexahedronWindings winding(corner);
     int count = 0;
-    std::uint32_t exit_face = 0, exit_rank = 0;
+    std::uint32_t exit_face = 0;
     for (std::uint32_t f = 0; f < 6; ++f) {
-      // All corners on one side of y = 0, as of most faces: no edge crosses it.
-      const unsigned own = up & kCorners[f];
-      if (own == 0 || own == kCorners[f]) continue;
-      faces[f] = Faces::crossings(quad(f), is_planar(first, f));
-      for (std::uint32_t rank = 0; rank < 2; ++rank) {
-        if (faces[f].direction[rank] == 0) continue;
-        ++count;
-        if (outwards(f) * faces[f].direction[rank] < 0) continue;
-        exit_face = f;
-        exit_rank = rank;
-      }
+      count += std::abs(winding.of(f));
+      exit_face = outwards(f) * winding.of(f) > 0 ? f : exit_face;
     }
-    auto measure = [&](std::uint32_t f, std::uint32_t rank) {
-      return Faces::measure(quad(f), faces[f], static_cast<int>(rank), is_planar(first, f));
-    };
-    if (count == 2) return left_through(exit_face, exit_rank, measure(exit_face, exit_rank));
+    if (count != 2 || any_grazed(winding, quad)) return leave_one_of_several(winding, quad);
+    const bool planar = is_planar(first_, exit_face);
+    const Quad through = quad(exit_face);
+    const QuadCrossings only = Faces::crossings(through, winding.of(exit_face), planar);
+    const std::uint32_t rank = only.direction[0] == 0 ? 1 : 0;
+    return left_through(exit_face, rank,
+                        Faces::measure(through, only, static_cast<int>(rank), planar));
+  }
+
+  bool advance() {
+    // As WalkableGrid::neighbor(), without finding the cell's place in the grid anew.
+    const std::size_t axis = face_ / 2;
+    const bool up = face_ % 2 == 1;
+    if (up ? index_[axis] + 2 == mesh_.dimensions[axis] : index_[axis] == 0) return false;
+    const std::uint32_t one = up ? 1u : ~0u;
+    index_[axis] += one;
+    cell_ += one * cell_step_[axis];
+    first_ += one * step_[std::size_t{1} << axis];
+    face_ ^= 1;  // the face behind -i is its neighbour's +i
+    return mesh_.hidden.empty() || !mesh_.hidden[cell_];
+  }
+
+ private:
+  // Whether a face of winding 0 is crossed all the same.
+  template <class QuadOf>
+  bool any_grazed(const HexahedronWindings& winding, const QuadOf& quad) const {
+    if (!Faces::kGrazed || (Faces::kAsksIfPlanar && mesh_.planar_faces == PlanarFaces::all))
+      return false;
+    for (std::uint32_t f = 0; f < 6; ++f)
+      if (winding.of(f) == 0 && winding.may_be_crossed(f) &&
+          Faces::crossings(quad(f), 0, is_planar(first_, f)).grazed())
+        return true;
+    return false;
+  }
+
+  template <class QuadOf>
+  std::optional<Crossing> leave_one_of_several(const HexahedronWindings& winding,
+                                               const QuadOf& quad) {
     std::array<CellCrossing, 12> crossings;
     std::size_t size = 0;
-    for (std::uint32_t f = 0; f < 6; ++f)
+    for (std::uint32_t f = 0; f < 6; ++f) {
+      if (!winding.may_be_crossed(f)) continue;
+      const bool planar = is_planar(first_, f);
+      const QuadCrossings of_face = Faces::crossings(quad(f), winding.of(f), planar);
       for (std::uint32_t rank = 0; rank < 2; ++rank)
-        if (faces[f].direction[rank] != 0)
-          crossings[size++] = {measure(f, rank), f, rank,
-                               outwards(f) * faces[f].direction[rank] > 0};
+        if (of_face.direction[rank] != 0)
+          crossings[size++] = {Faces::measure(quad(f), of_face, static_cast<int>(rank), planar), f,
+                               rank, outwards(f) * of_face.direction[rank] > 0};
+    }
     const auto exit = exit_for(crossings.data(), size, face_, rank_, frame_.sign());
     if (!exit) return std::nullopt;
     return left_through(exit->face, exit->rank, exit->place);
   }
 
-  bool advance() {
-    cell_ = mesh_.neighbor(cell_, face_);
-    face_ ^= 1;  // the face behind -i is its neighbour's +i
-    return cell_ != kNone;
-  }
-
- private:
-  // Corners of the faces -i, +i, -j, +j, -k, +k, corner (a, b, c) being a + 2b + 4c. Both cells at
-  // a face go around it from the same corner in the same direction, so they see the same numbers;
-  // from outside of a right-handed cell that is counterclockwise for +i, +j and +k.
-  static constexpr std::uint8_t kLoop[6][4] = {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 4, 5, 1},
-                                               {2, 6, 7, 3}, {0, 1, 3, 2}, {4, 5, 7, 6}};
-  // The same corners as bits.
-  static constexpr std::uint8_t kCorners[6] = {0x55, 0xAA, 0x33, 0xCC, 0x0F, 0xF0};
-
-  // 1 if a crossing in the direction of the loop above leads out of the cell, -1 if in.
+  // 1 if a crossing in the direction of a face's loop leads out of the cell, -1 if in.
   int outwards(std::uint32_t face) const {
     return (face % 2 == 1) != mesh_.left_handed ? frame_.sign() : -frame_.sign();
   }
@@ -130,8 +144,11 @@ class BasicGridWalker {
 
   const WalkableGrid& mesh_;
   const ShearedFrame& frame_;
-  std::array<std::uint32_t, 8> step_;
+  std::array<std::uint32_t, 8> step_;       // from a cell's first point to its corners
+  std::array<std::uint32_t, 3> cell_step_;  // from a cell to the next along each axis
   std::uint32_t cell_ = kNone;
+  std::array<std::uint32_t, 3> index_{0, 0, 0};
+  std::uint32_t first_ = 0;
   std::uint32_t face_ = 0;
   std::uint32_t rank_ = 0;
 };

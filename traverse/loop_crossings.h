@@ -47,7 +47,8 @@ void for_each_crossing(std::span<const ShearedPoint> loop, const Visit& visit) {
     return;
   }
   if (loop.size() == 4) {
-    const QuadCrossings crossings = patch_crossings({loop[0], loop[1], loop[2], loop[3]});
+    const Quad quad{loop[0], loop[1], loop[2], loop[3]};
+    const QuadCrossings crossings = patch_crossings(quad, winding(quad));
     for (std::uint32_t rank = 0; rank < 2; ++rank)
       if (crossings.direction[rank] != 0)
         visit(LoopCrossing{crossings.direction[rank], rank, crossings.grazed()});

@@ -36,10 +36,9 @@ inline int winding(const Quad& q) {
 /// The loop of a planar quadrilateral: as many crossings as its winding number. (A planar one that
 /// is concave or a bow-tie has parts where the bilinear patch is folded, but both its crossings
 /// are then at the same place.)
-inline QuadCrossings planar_crossings(const Quad& q) {
-  const int w = winding(q);
-  const int direction = (w > 0) - (w < 0);
-  return {{direction, w * w > 1 ? direction : 0}};
+inline QuadCrossings planar_crossings(int winding) {
+  const int direction = (winding > 0) - (winding < 0);
+  return {{direction, winding - direction}};
 }
 
 /// Twice the area of the triangle of the ray and an edge: exact but for one rounding, with and
@@ -50,8 +49,8 @@ inline double edge_product(const ShearedPoint& p, const ShearedPoint& q) {
 }
 
 /// Bernstein coefficients (the middle one doubled) of the two quadratics whose roots in [0, 1] are
-/// the v and the u of a patch's crossings: the products of the lines of constant v (or u) through
-/// the patch. Both have the same discriminant.
+/// the v and the u of a patch's crossings: the products of the lines of constant v (or u) across
+/// the patch. Both have the same discriminant, v1^2 - 4 v0 v2.
 struct PatchQuadratics {
   double v0, v1, v2;
   double u0, u1, u2;
@@ -67,51 +66,36 @@ struct PatchQuadratics {
   }
 };
 
-/// Whether some of the six lines between corners pass the ray on its right, and some on its left.
-/// If not, the ray passes outside of their convex hull, and so of any surface within.
-inline bool may_be_grazed(const Quad& q) {
-  bool right = false, left = false;
-  auto add = [&](const ShearedPoint& s, const ShearedPoint& t) {
-    if (s.up() == t.up()) return;
-    ((s.up() ? right_of_ray(t, s) : right_of_ray(s, t)) != 0 ? right : left) = true;
-  };
-  add(q.a, q.c);
-  add(q.b, q.d);
-  add(q.a, q.b);
-  add(q.c, q.d);
-  if (right && left) return true;
-  add(q.b, q.c);
-  add(q.d, q.a);
-  return right && left;
-}
-
 /// Whether the ray crosses the bilinear patch of a loop of winding 0 twice, once in each direction.
 ///
 /// A quadratic has two roots between 0 and 1 if and only if its outer Bernstein coefficients have
 /// the same sign, the middle one the other, and the square of the middle one exceeds the product of
-/// the outer ones. Nothing is divided and no root taken. Where the patch only just touches the ray
-/// the answer hangs on rounding, of the vertices above all; but it is the same from both sides.
+/// the outer ones: signs of edges and diagonals, and one comparison of products. Two edges settle
+/// it where the ray passes beside a face that it sees as convex, but in the sectors at its corners.
+/// Nothing is divided and no root taken. Where the patch only just touches the ray the answer hangs
+/// on rounding, of the vertices above all; but it is the same from both sides.
 inline bool is_grazed(const Quad& q) {
-  if (!may_be_grazed(q)) return false;
-  const PatchQuadratics k(q);
-  const bool two_v = (k.v0 > 0 && k.v1 < 0 && k.v2 > 0) || (k.v0 < 0 && k.v1 > 0 && k.v2 < 0);
-  const bool two_u = (k.u0 > 0 && k.u1 < 0 && k.u2 > 0) || (k.u0 < 0 && k.u1 > 0 && k.u2 < 0);
-  return two_v && two_u && k.v1 * k.v1 > 4 * (k.v0 * k.v2);
+  const double v0 = edge_product(q.a, q.b), v2 = edge_product(q.d, q.c);
+  if (!(v0 * v2 > 0)) return false;
+  const double u0 = edge_product(q.a, q.d), u2 = edge_product(q.b, q.c);
+  if (!(u0 * u2 > 0)) return false;
+  const double ac = edge_product(q.a, q.c), bd = edge_product(q.b, q.d);
+  const double v1 = ac - bd, u1 = ac + bd;
+  return v0 * v1 < 0 && u0 * u1 < 0 && v1 * v1 > 4 * (v0 * v2);
 }
 
-/// The bilinear patch through the four corners. Inside of it there is at most one crossing in each
-/// direction (measure_quad.h), so the winding number says all but whether there are none or both.
-inline QuadCrossings patch_crossings(const Quad& q) {
-  const QuadCrossings crossings = planar_crossings(q);
-  if (crossings.direction[0] == 0 && is_grazed(q)) return {{1, -1}};
-  return crossings;
+/// The bilinear patch through the corners of a loop of this winding. Inside of it there is at most
+/// one crossing in each direction (measure_quad.h), so the winding says all but whether there are
+/// none or both.
+inline QuadCrossings patch_crossings(const Quad& q, int winding) {
+  if (winding == 0 && is_grazed(q)) return {{1, -1}};
+  return planar_crossings(winding);
 }
 
 /// The triangles a, b, c and a, c, d: one crossing for each that winds about the ray.
-inline QuadCrossings triangle_crossings(const Quad& q) {
-  const int ac = crossing(q.a, q.c);
-  return {
-      {crossing(q.a, q.b) + crossing(q.b, q.c) - ac, ac + crossing(q.c, q.d) + crossing(q.d, q.a)}};
+inline QuadCrossings triangle_crossings(const Quad& q, int winding) {
+  const int first = crossing(q.a, q.b) + crossing(q.b, q.c) - crossing(q.a, q.c);
+  return {{first, winding - first}};
 }
 
 }  // namespace plume
