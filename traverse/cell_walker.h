@@ -28,9 +28,9 @@ class CellWalker {
   /// Calls visit(place, rank) for each way in through a boundary face.
   template <class Visit>
   void ways_in(const Boundary& boundary, const Visit& visit) const {
-    const auto loop = sheared_loop(boundary.face);
-    for_each_crossing(loop, [&](const LoopCrossing& crossing) {
-      if (crossing.direction * frame_.sign() < 0) visit(measure(loop, crossing), crossing.rank);
+    for_each_crossing_of(boundary.face, [&](const LoopCrossing& crossing) {
+      if (crossing.direction * frame_.sign() < 0)
+        visit(measure(sheared_loop(boundary.face), crossing), crossing.rank);
     });
   }
 
@@ -48,7 +48,7 @@ class CellWalker {
     for (const std::uint32_t face : mesh_.faces_of(cell_)) {
       // Loops are seen from outside of their owner.
       const int outwards = mesh_.face_sides[face].owner == cell_ ? frame_.sign() : -frame_.sign();
-      for_each_crossing(sheared_loop(face), [&](const LoopCrossing& crossing) {
+      for_each_crossing_of(face, [&](const LoopCrossing& crossing) {
         if (crossing.direction * outwards > 0) exit = decided_.size();
         decided_.push_back({crossing, face, crossing.direction * outwards > 0});
       });
@@ -80,12 +80,26 @@ class CellWalker {
     bool out;
   };
 
-  // Valid until the next call on this thread.
+  template <class Visit>
+  void for_each_crossing_of(std::uint32_t face, const Visit& visit) const {
+    const auto loop = mesh_.loop(face);
+    LoopSides sides;
+    ShearedPoint from = frame_(mesh_.points[loop.back()]);
+    for (const std::uint32_t id : loop) {
+      const ShearedPoint to = frame_(mesh_.points[id]);
+      sides.add_edge(from, to);
+      from = to;
+    }
+    for_each_crossing(
+        sides, loop.size(), [&] { return sheared_loop(face); }, visit);
+  }
+
+  // Valid until the next call.
   std::span<const ShearedPoint> sheared_loop(std::uint32_t face) const {
-    thread_local std::vector<ShearedPoint> points;
-    points.clear();
-    for (const std::uint32_t id : mesh_.loop(face)) points.push_back(frame_(mesh_.points[id]));
-    return points;
+    const auto loop = mesh_.loop(face);
+    if (points_.size() < loop.size()) points_.resize(loop.size());
+    for (std::size_t i = 0; i < loop.size(); ++i) points_[i] = frame_(mesh_.points[loop[i]]);
+    return {points_.data(), loop.size()};
   }
 
   Crossing left_through(std::uint32_t face, std::uint32_t rank, const Crossing& place) {
@@ -100,6 +114,7 @@ class CellWalker {
   std::uint32_t face_ = 0;
   std::uint32_t rank_ = 0;
   std::vector<Decided> decided_;
+  mutable std::vector<ShearedPoint> points_ = std::vector<ShearedPoint>(8);
   std::vector<CellCrossing> crossings_;
 };
 

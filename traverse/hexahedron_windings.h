@@ -20,12 +20,8 @@ class HexahedronWindings {
  public:
   explicit HexahedronWindings(const std::array<ShearedPoint, 8>& corner) {
     for (std::size_t c = 0; c < 8; ++c) up_ |= static_cast<unsigned>(corner[c].up()) << c;
-    // The same as crossing(), without branches: a processor cannot guess them.
-    auto edge = [&](unsigned a, unsigned b) {
-      const float forth = corner[a].x * corner[b].y, back = corner[b].x * corner[a].y;
-      const unsigned rises = ~up_ >> a & up_ >> b & 1u, falls = up_ >> a & ~up_ >> b & 1u;
-      return static_cast<int>(rises & static_cast<unsigned>(forth > back)) -
-             static_cast<int>(falls & static_cast<unsigned>(back > forth));
+    auto edge = [&](std::size_t a, std::size_t b) {
+      return crossing_unbranched(corner[a], corner[b]);
     };
     const int i00 = edge(0, 1), i10 = edge(2, 3), i01 = edge(4, 5), i11 = edge(6, 7);
     const int j00 = edge(0, 2), j10 = edge(1, 3), j01 = edge(4, 6), j11 = edge(5, 7);

@@ -31,36 +31,58 @@ inline ShearedPoint fan_center(std::span<const ShearedPoint> loop) {
   return {center.x / count, center.y / count, center.z / count, center.scalar / count};
 }
 
-/// Calls visit(const LoopCrossing&) for each crossing of a loop of three corners or more: a
-/// triangle is plane, a quadrilateral a bilinear patch, a polygon a fan of triangles around its
-/// centre, each of which is crossed where it winds about the ray; what its spokes add cancels.
-template <class Visit>
-void for_each_crossing(std::span<const ShearedPoint> loop, const Visit& visit) {
-  const bool up = loop[0].up();
-  std::size_t alike = 1;
-  while (alike < loop.size() && loop[alike].up() == up) ++alike;
-  if (alike == loop.size()) return;  // no edge and no spoke crosses y = 0, or only by rounding
-  if (loop.size() == 3) {
-    const int w =
-        crossing(loop[0], loop[1]) + crossing(loop[1], loop[2]) + crossing(loop[2], loop[0]);
-    if (w != 0) visit(LoopCrossing{w, 0, false});
-    return;
+/// What a loop's corners, taken one after the other, say of its crossings: enough for most.
+class LoopSides {
+ public:
+  void add_edge(const ShearedPoint& from, const ShearedPoint& to) {
+    winding_ += crossing(from, to);
+    up_ += to.up() ? 1 : 0;
+    right_ += to.x > 0 ? 1 : 0;
+    ++size_;
   }
-  if (loop.size() == 4) {
-    const Quad quad{loop[0], loop[1], loop[2], loop[3]};
-    const QuadCrossings crossings = patch_crossings(quad, winding(quad));
+
+  int winding() const { return winding_; }
+  /// The ray passes beside the corners' convex hull: no surface within is crossed. (Not so where
+  /// the edges say otherwise, as products that underflow may.)
+  bool beside() const {
+    return winding_ == 0 && (up_ == 0 || up_ == size_ || right_ == 0 || right_ == size_);
+  }
+
+ private:
+  int winding_ = 0;
+  std::size_t up_ = 0, right_ = 0, size_ = 0;
+};
+
+/// Calls visit(const LoopCrossing&) for each crossing of a loop of `size` >= 3 corners: a triangle
+/// is plane, a quadrilateral a bilinear patch, a polygon a fan of triangles around its centre, each
+/// of which is crossed where it winds about the ray; what its spokes add cancels. `corners()` gives
+/// the loop's std::span of ShearedPoint, and is called where `sides` do not suffice.
+template <class Corners, class Visit>
+void for_each_crossing(const LoopSides& sides, std::size_t size, const Corners& corners,
+                       const Visit& visit) {
+  const int w = sides.winding();
+  if (sides.beside()) return;
+  if (size <= 4) {
+    QuadCrossings crossings = planar_crossings(w);
+    if (w == 0 && size == 4) {
+      const std::span<const ShearedPoint> p = corners();
+      crossings = patch_crossings({p[0], p[1], p[2], p[3]}, w);
+    }
     for (std::uint32_t rank = 0; rank < 2; ++rank)
       if (crossings.direction[rank] != 0)
         visit(LoopCrossing{crossings.direction[rank], rank, crossings.grazed()});
     return;
   }
-  const ShearedPoint center = fan_center(loop);
-  int from_spoke = crossing(center, loop.back());
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const int to_spoke = crossing(center, loop[i]);
-    const int w = from_spoke + crossing(loop[i == 0 ? loop.size() - 1 : i - 1], loop[i]) - to_spoke;
-    if (w != 0) visit(LoopCrossing{w, static_cast<std::uint32_t>(i), false});
+  const std::span<const ShearedPoint> p = corners();
+  const ShearedPoint center = fan_center(p);
+  const ShearedPoint* from = &p.back();
+  int from_spoke = crossing(center, *from);
+  for (std::size_t i = 0; i < size; ++i) {
+    const int to_spoke = crossing(center, p[i]);
+    const int of_triangle = from_spoke + crossing(*from, p[i]) - to_spoke;
+    if (of_triangle != 0) visit(LoopCrossing{of_triangle, static_cast<std::uint32_t>(i), false});
     from_spoke = to_spoke;
+    from = &p[i];
   }
 }
 

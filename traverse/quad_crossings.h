@@ -30,7 +30,8 @@ struct QuadCrossings {
 
 /// -2 to 2; beyond 1 by rounding only.
 inline int winding(const Quad& q) {
-  return crossing(q.a, q.b) + crossing(q.b, q.c) + crossing(q.c, q.d) + crossing(q.d, q.a);
+  return crossing_unbranched(q.a, q.b) + crossing_unbranched(q.b, q.c) +
+         crossing_unbranched(q.c, q.d) + crossing_unbranched(q.d, q.a);
 }
 
 /// The loop of a planar quadrilateral: as many crossings as its winding number. (A planar one that
