@@ -42,8 +42,8 @@ struct PlanarOrPatchFaces {
   static QuadCrossings crossings(const Quad& quad, int winding, bool planar) {
     return planar ? planar_crossings(winding) : patch_crossings(quad, winding);
   }
-  static Crossing measure(const Quad& quad, const QuadCrossings& crossings, int rank,
-                          [[maybe_unused]] bool planar) {
+  static Crossing measure(const Quad& quad, const QuadCrossings& crossings, int rank, bool planar) {
+    if (planar) return measure_planar(quad, crossings.direction[rank]);
     return measure_patch(quad, crossings.direction[rank], crossings.grazed());
   }
 };

@@ -10,6 +10,25 @@
 
 namespace plume {
 
+/// z and scalar of the bilinear patch at (u, v).
+inline Crossing blend_corners(const Quad& q, double u, double v) {
+  auto blend = [u, v](double a, double b, double c, double d) {
+    return (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * d + u * c);
+  };
+  return {blend(q.a.z, q.b.z, q.c.z, q.d.z),
+          static_cast<float>(blend(q.a.scalar, q.b.scalar, q.c.scalar, q.d.scalar))};
+}
+
+/// The place between the edges next to the ray, of a loop that winds about it.
+inline Crossing measure_straddle(const Quad& q) {
+  Straddle straddle;
+  straddle.add(q.a, q.b);
+  straddle.add(q.b, q.c);
+  straddle.add(q.c, q.d);
+  straddle.add(q.d, q.a);
+  return straddle.measure();
+}
+
 /// A quadrilateral, planar or twisted, as the bilinear patch
 /// (1-v) ((1-u) a + u b) + v ((1-u) d + u c); its crossing in `direction` (1 or -1).
 ///
@@ -39,27 +58,29 @@ inline Crossing measure_patch(const Quad& q, int direction, bool grazed) {
   auto solve = [jacobian](double c0, double c1, double c2) {
     return c1 * jacobian > 0 || c2 == 0 ? -2 * c0 / (c1 + jacobian) : (jacobian - c1) / (2 * c2);
   };
-  double v = solve(-k.v0, 2 * k.v0 - k.v1, k.v1 - k.v0 - k.v2);
-  double u = solve(k.u0, k.u1 - 2 * k.u0, k.u0 - k.u1 + k.u2);
-  if (grazed) {
-    u = std::min(u, 1.0);
-    v = std::min(v, 1.0);
-  } else if (!(u >= 0 && u <= 1 && v >= 0 && v <= 1)) {
-    // Outside of the patch, or no number at all, only by rounding, where the ray passes by the
-    // boundary or the patch is seen edge-on. Then the place between the edges next to the ray is as
-    // near to the patch, and on the ray.
-    Straddle straddle;
-    straddle.add(q.a, q.b);
-    straddle.add(q.b, q.c);
-    straddle.add(q.c, q.d);
-    straddle.add(q.d, q.a);
-    return straddle.measure();
+  const double v = solve(-k.v0, 2 * k.v0 - k.v1, k.v1 - k.v0 - k.v2);
+  const double u = solve(k.u0, k.u1 - 2 * k.u0, k.u0 - k.u1 + k.u2);
+  if (grazed) return blend_corners(q, std::min(u, 1.0), std::min(v, 1.0));
+  // Outside of the patch, or no number at all, only by rounding, where the ray passes by the
+  // boundary or the patch is seen edge-on. Then the place between the edges next to the ray is as
+  // near to the patch, and on the ray.
+  return u >= 0 && u <= 1 && v >= 0 && v <= 1 ? blend_corners(q, u, v) : measure_straddle(q);
+}
+
+/// A planar quadrilateral. Where it is a parallelogram, u and v are quotients of products: no root
+/// is taken. So it is, too, where the quadratic terms change neither by more than 2^-24 of itself,
+/// single precision's share. Otherwise as a patch, whose blend lies in the plane.
+inline Crossing measure_planar(const Quad& q, int direction) {
+  const PatchQuadratics k(q);
+  const double v_slope = 2 * k.v0 - k.v1, u_slope = 2 * k.u0 - k.u1;
+  const double v_bend = k.v1 - k.v0 - k.v2, u_bend = k.u1 - k.u0 - k.u2;
+  constexpr double kLinear = 0x1p-24;
+  if (std::abs(k.v0 * v_bend) <= kLinear * (v_slope * v_slope) &&
+      std::abs(k.u0 * u_bend) <= kLinear * (u_slope * u_slope)) {
+    const double u = k.u0 / u_slope, v = k.v0 / v_slope;
+    if (u >= 0 && u <= 1 && v >= 0 && v <= 1) return blend_corners(q, u, v);
   }
-  auto blend = [u, v](double a, double b, double c, double d) {
-    return (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * d + u * c);
-  };
-  return {blend(q.a.z, q.b.z, q.c.z, q.d.z),
-          static_cast<float>(blend(q.a.scalar, q.b.scalar, q.c.scalar, q.d.scalar))};
+  return measure_patch(q, direction, false);
 }
 
 /// The triangles a, b, c (rank 0) and a, c, d (rank 1).
