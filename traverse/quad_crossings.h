@@ -49,32 +49,17 @@ inline double edge_product(const ShearedPoint& p, const ShearedPoint& q) {
          static_cast<double>(q.x) * static_cast<double>(p.y);
 }
 
-/// Bernstein coefficients (the middle one doubled) of the two quadratics whose roots in [0, 1] are
-/// the v and the u of a patch's crossings: the products of the lines of constant v (or u) across
-/// the patch. Both have the same discriminant, v1^2 - 4 v0 v2.
-struct PatchQuadratics {
-  double v0, v1, v2;
-  double u0, u1, u2;
-
-  explicit PatchQuadratics(const Quad& q) {
-    const double ac = edge_product(q.a, q.c), bd = edge_product(q.b, q.d);
-    v0 = edge_product(q.a, q.b);
-    v1 = ac - bd;
-    v2 = edge_product(q.d, q.c);
-    u0 = edge_product(q.a, q.d);
-    u1 = ac + bd;
-    u2 = edge_product(q.b, q.c);
-  }
-};
-
 /// Whether the ray crosses the bilinear patch of a loop of winding 0 twice, once in each direction.
 ///
-/// A quadratic has two roots between 0 and 1 if and only if its outer Bernstein coefficients have
-/// the same sign, the middle one the other, and the square of the middle one exceeds the product of
-/// the outer ones: signs of edges and diagonals, and one comparison of products. Two edges settle
-/// it where the ray passes beside a face that it sees as convex, but in the sectors at its corners.
-/// Nothing is divided and no root taken. Where the patch only just touches the ray the answer hangs
-/// on rounding, of the vertices above all; but it is the same from both sides.
+/// The lines of constant v across the patch, and those of constant u, pass through the ray where a
+/// quadratic in v (u) is 0: v0 (1-v)^2 + v1 v (1-v) + v2 v^2, and both have the discriminant
+/// v1^2 - 4 v0 v2. A quadratic has two roots between 0 and 1 if and only if its outer Bernstein
+/// coefficients have the same sign, the middle one the other, and the square of the middle one
+/// exceeds the product of the outer ones: signs of edges and diagonals, and one comparison of
+/// products. Two edges settle it where the ray passes beside a face that it sees as convex, but in
+/// the sectors at its corners. Nothing is divided and no root taken. Where the patch only just
+/// touches the ray the answer hangs on rounding, of the vertices above all; but it is the same from
+/// both sides.
 inline bool is_grazed(const Quad& q) {
   const double v0 = edge_product(q.a, q.b), v2 = edge_product(q.d, q.c);
   if (!(v0 * v2 > 0)) return false;
