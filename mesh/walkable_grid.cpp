@@ -4,6 +4,9 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
+#include <array>
+#include <cmath>
+
 #include "plume/mesh/explicit_cells.h"
 #include "plume/mesh/face_matching.h"
 
@@ -28,11 +31,72 @@ bool is_left_handed(const Mesh& mesh) {
   return volume < 0;
 }
 
+// Whether two lines, the diagonals of a face, are within kPlanar of each other: all four corners
+// are then within half of that of the plane between them, as is the patch, their convex
+// combination.
+bool is_planar_quad(const WalkablePoint& a, const WalkablePoint& b, const WalkablePoint& c,
+                    const WalkablePoint& d) {
+  std::array<double, 3> ac, bd, ab;
+  for (std::size_t i = 0; i < 3; ++i) {
+    ac[i] = static_cast<double>(c.position[i]) - a.position[i];
+    bd[i] = static_cast<double>(d.position[i]) - b.position[i];
+    ab[i] = static_cast<double>(b.position[i]) - a.position[i];
+  }
+  const std::array<double, 3> normal{ac[1] * bd[2] - ac[2] * bd[1], ac[2] * bd[0] - ac[0] * bd[2],
+                                     ac[0] * bd[1] - ac[1] * bd[0]};
+  const double volume = normal[0] * ab[0] + normal[1] * ab[1] + normal[2] * ab[2];
+  return std::abs(volume) <= kPlanar * std::hypot(normal[0], normal[1], normal[2]);
+}
+
+void find_planar_faces(WalkableGrid& grid) {
+  const std::array<std::uint32_t, 3>& n = grid.dimensions;
+  const std::array<std::uint32_t, 3> step{1, n[0], n[0] * n[1]};
+  constexpr std::size_t kBlock = 64;  // points, whose bits fill three words
+  std::vector<std::uint64_t> bits(3 * ((grid.points.size() + kBlock - 1) / kBlock), 0);
+  struct Count {
+    std::uint64_t planar = 0, all = 0;
+  };
+  auto block_of = [&](std::size_t block, Count& count) {
+    const std::size_t end = std::min((block + 1) * kBlock, grid.points.size());
+    for (std::size_t p = block * kBlock; p < end; ++p) {
+      const std::array<std::size_t, 3> index{p % n[0], p / n[0] % n[1], p / n[0] / n[1]};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const std::size_t b = (axis + 1) % 3, c = (axis + 2) % 3;
+        if (index[b] + 1 == n[b] || index[c] + 1 == n[c]) continue;
+        ++count.all;
+        const WalkablePoint* const first = &grid.points[p];
+        if (!is_planar_quad(first[0], first[step[b]], first[step[b] + step[c]], first[step[c]]))
+          continue;
+        ++count.planar;
+        const std::size_t bit = 3 * p + axis;
+        bits[bit / 64] |= std::uint64_t{1} << bit % 64;
+      }
+    }
+  };
+  const Count total = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, bits.size() / 3, 64), Count{},
+      [&](const auto& range, Count count) {
+        for (std::size_t block = range.begin(); block != range.end(); ++block)
+          block_of(block, count);
+        return count;
+      },
+      [](Count a, const Count& b) {
+        return Count{a.planar + b.planar, a.all + b.all};
+      });
+  if (total.planar == total.all) {
+    grid.planar_faces = PlanarFaces::all;
+  } else if (2 * total.planar >= total.all) {
+    grid.planar_faces = PlanarFaces::some;
+    grid.planar_bits = std::move(bits);
+  }
+}
+
 }  // namespace
 
 std::size_t WalkableGrid::bytes() const {
   return points.size() * sizeof(WalkablePoint) + cell_values.size() * sizeof(float) +
-         hidden.size() / 8 + boundary.size() * sizeof(BoundaryFace);
+         hidden.size() / 8 + planar_bits.size() * sizeof(std::uint64_t) +
+         boundary.size() * sizeof(BoundaryFace);
 }
 
 std::uint32_t WalkableGrid::neighbor(std::uint32_t cell, std::uint32_t face) const {
@@ -69,6 +133,7 @@ WalkableGrid make_walkable_grid(const Mesh& mesh, const ScalarField& scalar, con
         });
   });
   if (!on_points) grid.cell_values = scalar.values;
+  find_planar_faces(grid);
 
   Finding hidden{"hidden cells", 0, {}};
   const auto cells = static_cast<std::uint32_t>(grid.cell_count());

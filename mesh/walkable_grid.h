@@ -13,7 +13,11 @@
 
 namespace plume {
 
-/// 16 bytes a point and nothing a cell (one bit where cells are hidden). Cell (i, j, k) is
+/// How many of a mesh's faces are planar.
+enum class PlanarFaces : std::uint8_t { none, some, all };
+
+/// 16 bytes a point and nothing a cell (one bit where cells are hidden, three a point where some
+/// faces are planar and some are not). Cell (i, j, k) is
 /// i + ci * (j + cj * k) with ci = dimensions[0] - 1 and so on, as in the user's mesh.
 struct WalkableGrid {
   LocalFrame frame;
@@ -25,6 +29,12 @@ struct WalkableGrid {
   std::vector<bool> hidden;
   /// The whole grid's handedness: i, j, k form a left-handed system.
   bool left_handed = false;
+  /// A face is planar where its corners are within kPlanar / 2 of a plane. `none` also where fewer
+  /// than half of the faces are: they are then taken for twisted, which costs time, not precision.
+  PlanarFaces planar_faces = PlanarFaces::none;
+  /// Where `some` are, three bits a point (bit 3 * point + axis): whether the face across that axis
+  /// whose lowest corner is that point is planar. Else empty.
+  std::vector<std::uint64_t> planar_bits;
   /// Every face without a visible cell behind it. Faces are numbered -i, +i, -j, +j, -k, +k.
   std::vector<BoundaryFace> boundary;
   std::vector<Finding> findings;
@@ -44,9 +54,23 @@ struct WalkableGrid {
     const auto [i, j, k] = cell_index(cell);
     return i + dimensions[0] * (j + dimensions[1] * k);
   }
+  /// Whether the face across `axis` whose lowest corner is `point` is planar.
+  bool is_planar(std::uint32_t point, std::uint32_t axis) const {
+    if (planar_faces != PlanarFaces::some) return planar_faces == PlanarFaces::all;
+    const std::size_t bit = 3 * static_cast<std::size_t>(point) + axis;
+    return (planar_bits[bit / 64] >> bit % 64 & 1) != 0;
+  }
   /// The visible cell behind a face, or kNone.
   std::uint32_t neighbor(std::uint32_t cell, std::uint32_t face) const;
 };
+
+/// Distance of a planar face's diagonals, at most, in the local frame. Rounding coordinates to
+/// single precision moves either diagonal by up to 5.2e-8 (half a unit in the last place of numbers
+/// up to one, in three axes), and so makes a planar face of any mesh one that is up to 1e-7 apart.
+/// Twice that, so that a mesh whose file was rounded, too, passes. Taking such a face for planar
+/// moves a crossing by no more than half of this, 1.2e-7, divided by the cosine between ray and
+/// face: less than what rounding the sheared vertices does (traverse/measure.h).
+inline constexpr double kPlanar = 0x1p-22;
 
 /// Builds the walkable form. Requires a grid that passed check_structure().
 WalkableGrid make_walkable_grid(const Mesh& mesh, const ScalarField& scalar, const Bounds& bounds);

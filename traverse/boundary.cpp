@@ -6,6 +6,8 @@
 #include <array>
 #include <limits>
 #include <string>
+#include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "plume/mesh/error.h"
@@ -77,7 +79,7 @@ struct Query {
 
 bool before(const Entry& a, const Entry& b, int sign) {
   if (a.place.z != b.place.z) return sign > 0 ? a.place.z < b.place.z : a.place.z > b.place.z;
-  return a.boundary < b.boundary;
+  return std::tie(a.boundary, a.rank) < std::tie(b.boundary, b.rank);
 }
 
 // Puts an entry into its place in the list; what falls off the end is found by the next query.
@@ -93,6 +95,19 @@ void insert(EntryList& list, const Entry& entry, int sign) {
   list.more = list.size == EntryList::kCapacity;
 }
 
+// Calls visit(place, rank) for each way in through a boundary face.
+template <class Walker, class Visit>
+void for_each_way_in(const Walker& walker, const typename Walker::Boundary& face, int sign,
+                     const Visit& visit) {
+  if constexpr (std::is_same_v<Walker, TetWalker>) {
+    // A triangle is crossed once or not at all.
+    const int winding = walker.boundary_winding(face);
+    if (winding * sign < 0) visit(walker.measure_boundary(face, winding), 0u);
+  } else {
+    walker.ways_in(face, visit);
+  }
+}
+
 template <class Walker>
 void face_intersect(const RTCIntersectFunctionNArguments* args) {
   const auto& query = *reinterpret_cast<const Query<Walker>*>(args->context);
@@ -104,15 +119,15 @@ void face_intersect(const RTCIntersectFunctionNArguments* args) {
     if (args->valid[i] == 0) continue;
     const QueryRay<Walker>& ray = query.rays[RTCRayN_id(rays, args->N, i)];
     const int sign = ray.frame->sign();
-    const int winding = ray.walker->boundary_winding(face);
-    const int ways_in = -winding * sign;
-    if (ways_in <= 0) continue;
-    const Entry entry{ray.walker->measure_boundary(face, winding), args->primID, 0,
-                      static_cast<std::uint32_t>(ways_in)};
-    if (ray.previous && !before(*ray.previous, entry, sign)) continue;
     EntryList& list = *ray.found;
-    insert(list, entry, sign);
-    if (!list.more) continue;
+    bool found = false;
+    for_each_way_in(*ray.walker, face, sign, [&](const Crossing& place, std::uint32_t rank) {
+      const Entry entry{place, args->primID, rank};
+      if (ray.previous && !before(*ray.previous, entry, sign)) return;
+      insert(list, entry, sign);
+      found = true;
+    });
+    if (!found || !list.more) continue;
     // Only what lies before the last of a full list matters any more; behind it there may be
     // others, which are not looked for. Another face may lie at the same place: the margin keeps
     // its box in sight.
@@ -239,6 +254,8 @@ void BoundaryIndex<Walker>::first_entries(std::span<const ShearedFrame* const> f
 
 template class BoundaryIndex<TetWalker>;
 template class BoundaryIndex<GridWalker>;
+template class BoundaryIndex<HybridGridWalker>;
+template class BoundaryIndex<PluckerGridWalker>;
 template class BoundaryIndex<CellWalker>;
 
 }  // namespace plume

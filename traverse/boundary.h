@@ -14,12 +14,11 @@
 namespace plume {
 
 /// One way into a mesh along a ray. Entries are ordered by z along the ray, then by the number of
-/// the boundary face, then by rank (for a face of winding 2 or more).
+/// the boundary face, then by rank.
 struct Entry {
   Crossing place{0, 0};
   std::uint32_t boundary = 0;  ///< number in the mesh's list of boundary faces
-  std::uint32_t rank = 0;
-  std::uint32_t ranks = 1;  ///< ways in through this face
+  std::uint32_t rank = 0;      ///< which of the face's crossings
 };
 
 /// The next few entries of a ray, in order: enough for most rays in one query.
@@ -39,8 +38,9 @@ struct EntryList {
 /// A bounding volume hierarchy (Embree's, in robust mode) over a mesh's boundary faces.
 ///
 /// The faces' boxes are widened by more than rounding can move a face against the ray, so that
-/// every face whose winding is not zero is among the candidates; the winding alone says whether it
-/// is hit. Entries are enumerated in their order, each once, however close together they are.
+/// every face that the ray crosses is among the candidates; the walker's rule alone says whether it
+/// is hit, and how often: a face may be grazed, in and out again. Entries are enumerated in their
+/// order, each once, however close together they are.
 template <class Walker>
 class BoundaryIndex {
  public:
@@ -87,13 +87,8 @@ class Entries {
   /// The entry after that. Requires that there was one.
   std::optional<Entry> next(const BoundaryIndex<Walker>& boundary, const Walker& walker,
                             const ShearedFrame& frame) {
-    Entry& entry = list_.entries[at_];
-    if (entry.rank + 1 < entry.ranks) {
-      ++entry.rank;
-      return entry;
-    }
     if (at_ + 1 == list_.size && list_.more) {
-      const Entry previous = entry;
+      const Entry previous = list_.entries[at_];
       list_ = boundary.next_entries(walker, frame, &previous);
       at_ = 0;
       return current();
@@ -114,6 +109,8 @@ class Entries {
 
 extern template class BoundaryIndex<TetWalker>;
 extern template class BoundaryIndex<GridWalker>;
+extern template class BoundaryIndex<HybridGridWalker>;
+extern template class BoundaryIndex<PluckerGridWalker>;
 extern template class BoundaryIndex<CellWalker>;
 
 }  // namespace plume

@@ -1,16 +1,19 @@
-/// Walking cells of any kind, convex or not, by the windings of their faces: the plain scalar form.
+/// Walking cells of any kind, convex or not, by the crossings of their faces: the plain scalar
+/// form.
 ///
-/// Triangles are measured by their edges' products, quadrilaterals as bilinear patches, other
-/// polygons as fans around their centre. On a vertex, an edge or in the plane of a face the ray is
-/// taken as moved a little (sheared_frame.h).
+/// Triangles are plane, quadrilaterals bilinear patches, other polygons fans around their centre
+/// (loop_crossings.h). Where a cell is crossed more than once, its crossings are sorted and paired
+/// (pair_crossings.h). On a vertex, an edge or in the plane of a face the ray is taken as moved a
+/// little (sheared_frame.h).
 #pragma once
 
 #include <cstdint>
-#include <cstdlib>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "plume/mesh/walkable_cells.h"
+#include "plume/traverse/loop_crossings.h"
 #include "plume/traverse/pair_crossings.h"
 
 namespace plume {
@@ -22,10 +25,13 @@ class CellWalker {
 
   CellWalker(const WalkableCells& mesh, const ShearedFrame& frame) : mesh_(mesh), frame_(frame) {}
 
-  int boundary_winding(const Boundary& boundary) const { return winding(boundary.face); }
-
-  Crossing measure_boundary(const Boundary& boundary, int outward_winding) const {
-    return measure(boundary.face, outward_winding);
+  /// Calls visit(place, rank) for each way in through a boundary face.
+  template <class Visit>
+  void ways_in(const Boundary& boundary, const Visit& visit) const {
+    for_each_crossing_of(boundary.face, [&](const LoopCrossing& crossing) {
+      if (crossing.direction * frame_.sign() < 0)
+        visit(measure(sheared_loop(boundary.face), crossing), crossing.rank);
+    });
   }
 
   void enter(const Boundary& boundary, std::uint32_t rank) {
@@ -37,29 +43,28 @@ class CellWalker {
   std::uint32_t cell() const { return cell_; }
 
   std::optional<Crossing> leave() {
-    const auto faces = mesh_.faces_of(cell_);
-    ways_.clear();
-    int count = 0;
-    const std::uint32_t* exit_face = nullptr;
-    for (const std::uint32_t& face : faces) {
-      const bool owner = mesh_.face_sides[face].owner == cell_;
-      ways_.push_back(frame_.sign() * (owner ? 1 : -1) * winding(face));
-      count += std::abs(ways_.back());
-      if (ways_.back() > 0) exit_face = &face;
+    decided_.clear();
+    std::size_t exit = 0;
+    for (const std::uint32_t face : mesh_.faces_of(cell_)) {
+      // Loops are seen from outside of their owner.
+      const int outwards = mesh_.face_sides[face].owner == cell_ ? frame_.sign() : -frame_.sign();
+      for_each_crossing_of(face, [&](const LoopCrossing& crossing) {
+        if (crossing.direction * outwards > 0) exit = decided_.size();
+        decided_.push_back({crossing, face, crossing.direction * outwards > 0});
+      });
     }
-    auto measure_way = [&](std::uint32_t face, int ways) {
-      const bool owner = mesh_.face_sides[face].owner == cell_;
-      return measure(face, ways * frame_.sign() * (owner ? 1 : -1));
-    };
-    if (count == 2 && exit_face != nullptr)
-      return left_through(*exit_face, 0, measure_way(*exit_face, 1));
+    if (decided_.size() == 2) {
+      const Decided& only = decided_[exit];
+      return left_through(only.face, only.crossing.rank,
+                          measure(sheared_loop(only.face), only.crossing));
+    }
     crossings_.clear();
-    for (std::size_t f = 0; f < faces.size(); ++f)
-      for (std::uint32_t rank = 0; rank < static_cast<std::uint32_t>(std::abs(ways_[f])); ++rank)
-        crossings_.push_back({measure_way(faces[f], ways_[f]), faces[f], rank, ways_[f] > 0});
-    const auto exit = exit_for(crossings_.data(), crossings_.size(), face_, rank_, frame_.sign());
-    if (!exit) return std::nullopt;
-    return left_through(exit->face, exit->rank, exit->place);
+    for (const Decided& d : decided_)
+      crossings_.push_back(
+          {measure(sheared_loop(d.face), d.crossing), d.face, d.crossing.rank, d.out});
+    const auto found = exit_for(crossings_.data(), crossings_.size(), face_, rank_, frame_.sign());
+    if (!found) return std::nullopt;
+    return left_through(found->face, found->rank, found->place);
   }
 
   bool advance() {
@@ -69,26 +74,32 @@ class CellWalker {
   }
 
  private:
-  // The winding of a face seen from outside of its owner.
-  int winding(std::uint32_t face) const {
+  struct Decided {
+    LoopCrossing crossing;
+    std::uint32_t face;
+    bool out;
+  };
+
+  template <class Visit>
+  void for_each_crossing_of(std::uint32_t face, const Visit& visit) const {
     const auto loop = mesh_.loop(face);
+    LoopSides sides;
     ShearedPoint from = frame_(mesh_.points[loop.back()]);
-    int sum = 0;
     for (const std::uint32_t id : loop) {
       const ShearedPoint to = frame_(mesh_.points[id]);
-      sum += crossing(from, to);
+      sides.add_edge(from, to);
       from = to;
     }
-    return sum;
+    for_each_crossing(
+        sides, loop.size(), [&] { return sheared_loop(face); }, visit);
   }
 
-  Crossing measure(std::uint32_t face, int face_winding) const {
-    thread_local std::vector<ShearedPoint> p;
-    p.clear();
-    for (const std::uint32_t id : mesh_.loop(face)) p.push_back(frame_(mesh_.points[id]));
-    if (p.size() == 3) return measure_triangle(p[0], p[1], p[2]);
-    if (p.size() == 4) return measure_patch(p[0], p[1], p[2], p[3], face_winding);
-    return measure_polygon(p, face_winding);
+  // Valid until the next call.
+  std::span<const ShearedPoint> sheared_loop(std::uint32_t face) const {
+    const auto loop = mesh_.loop(face);
+    if (points_.size() < loop.size()) points_.resize(loop.size());
+    for (std::size_t i = 0; i < loop.size(); ++i) points_[i] = frame_(mesh_.points[loop[i]]);
+    return {points_.data(), loop.size()};
   }
 
   Crossing left_through(std::uint32_t face, std::uint32_t rank, const Crossing& place) {
@@ -102,7 +113,8 @@ class CellWalker {
   std::uint32_t cell_ = kNone;
   std::uint32_t face_ = 0;
   std::uint32_t rank_ = 0;
-  std::vector<int> ways_;
+  std::vector<Decided> decided_;
+  mutable std::vector<ShearedPoint> points_ = std::vector<ShearedPoint>(8);
   std::vector<CellCrossing> crossings_;
 };
 

@@ -1,9 +1,9 @@
 /// Walking the hexahedra of a curvilinear grid: the plain scalar form.
 ///
-/// The winding of each face follows from its four edges, whether it is planar, twisted or
-/// collapsed. On a vertex, an edge or in the plane of a face the ray is taken as moved a little
-/// (sheared_frame.h). A twisted face that the ray grazes in and out again (winding 0) counts as
-/// missed: the sliver behind it is seen as part of the cell in front.
+/// Which crossings a face has follows from its four corners alone, whether it is planar, twisted or
+/// collapsed (quad_crossings.h); three ways to see a face can be chosen from (grid_faces.h). Where
+/// a cell is crossed more than once, its crossings are sorted and paired (pair_crossings.h). On a
+/// vertex, an edge or in the plane of a face the ray is taken as moved a little (sheared_frame.h).
 #pragma once
 
 #include <array>
@@ -12,33 +12,45 @@
 #include <optional>
 
 #include "plume/mesh/walkable_grid.h"
+#include "plume/traverse/grid_faces.h"
+#include "plume/traverse/hexahedron_windings.h"
 #include "plume/traverse/pair_crossings.h"
 
 namespace plume {
 
-class GridWalker {
+/// `Faces` is one of grid_faces.h.
+template <class Faces>
+class BasicGridWalker {
  public:
   using Mesh = WalkableGrid;
   using Boundary = BoundaryFace;
 
-  GridWalker(const WalkableGrid& mesh, const ShearedFrame& frame) : mesh_(mesh), frame_(frame) {
+  BasicGridWalker(const WalkableGrid& mesh, const ShearedFrame& frame)
+      : mesh_(mesh), frame_(frame) {
     const std::uint32_t ni = mesh.dimensions[0], nij = ni * mesh.dimensions[1];
     step_ = {0, 1, ni, 1 + ni, nij, 1 + nij, ni + nij, 1 + ni + nij};
+    cell_step_ = {1, ni - 1, (ni - 1) * (mesh.dimensions[1] - 1)};
   }
 
-  int boundary_winding(const Boundary& boundary) const {
-    const auto loop = face_loop(boundary);
-    return outward(boundary.face, winding(loop));
-  }
-
-  Crossing measure_boundary(const Boundary& boundary, int outward_winding) const {
-    const auto loop = face_loop(boundary);
-    return measure_patch(loop[0], loop[1], loop[2], loop[3],
-                         outward(boundary.face, outward_winding));
+  /// Calls visit(place, rank) for each way in through a boundary face.
+  template <class Visit>
+  void ways_in(const Boundary& boundary, const Visit& visit) const {
+    const std::uint32_t first = mesh_.first_point(boundary.cell);
+    std::array<ShearedPoint, 4> p;
+    for (std::size_t i = 0; i < 4; ++i)
+      p[i] = frame_(mesh_.points[first + step_[kHexahedronLoop[boundary.face][i]]]);
+    const Quad quad{p[0], p[1], p[2], p[3]};
+    const bool planar = is_planar(first, boundary.face);
+    const QuadCrossings crossings = Faces::crossings(quad, winding(quad), planar);
+    for (std::uint32_t rank = 0; rank < 2; ++rank)
+      if (outwards(boundary.face) * crossings.direction[rank] < 0)
+        visit(Faces::measure(quad, crossings, static_cast<int>(rank), planar), rank);
   }
 
   void enter(const Boundary& boundary, std::uint32_t rank) {
     cell_ = boundary.cell;
+    index_ = mesh_.cell_index(cell_);
+    first_ = mesh_.first_point(cell_);
     face_ = boundary.face;
     rank_ = rank;
   }
@@ -50,68 +62,81 @@ class GridWalker {
 
   std::optional<Crossing> leave() {
     std::array<ShearedPoint, 8> corner;
-    const std::uint32_t first = mesh_.first_point(cell_);
-    for (std::size_t c = 0; c < 8; ++c) corner[c] = frame_(mesh_.points[first + step_[c]]);
-
-    std::array<int, 6> ways;  // > 0: that many ways out, < 0: that many in
-    int count = 0;
-    for (std::size_t f = 0; f < 6; ++f) {
-      const auto& loop = kLoop[f];
-      ways[f] =
-          frame_.sign() *
-          outward(static_cast<std::uint32_t>(f),
-                  winding({corner[loop[0]], corner[loop[1]], corner[loop[2]], corner[loop[3]]}));
-      count += std::abs(ways[f]);
-    }
-    auto measure = [&](std::uint32_t f) {
-      const auto& loop = kLoop[f];
-      const int w = outward(f, ways[f] * frame_.sign());
-      return measure_patch(corner[loop[0]], corner[loop[1]], corner[loop[2]], corner[loop[3]], w);
+    for (std::size_t c = 0; c < 8; ++c) corner[c] = frame_(mesh_.points[first_ + step_[c]]);
+    auto quad = [&](std::size_t face) {
+      const auto& loop = kHexahedronLoop[face];
+      return Quad{corner[loop[0]], corner[loop[1]], corner[loop[2]], corner[loop[3]]};
     };
-    if (count == 2) {
-      for (std::uint32_t f = 0; f < 6; ++f)
-        if (ways[f] > 0) return left_through(f, 0, measure(f));
-      return std::nullopt;
+
+    const HexahedronWindings winding(corner);
+    int count = 0;
+    std::uint32_t exit_face = 0;
+    for (std::uint32_t f = 0; f < 6; ++f) {
+      count += std::abs(winding.of(f));
+      exit_face = outwards(f) * winding.of(f) > 0 ? f : exit_face;
     }
-    std::array<CellCrossing, 12> crossings;  // a quadrilateral's winding is at most 2
-    std::size_t size = 0;
+    if (count != 2 || any_grazed(winding, quad)) return leave_one_of_several(winding, quad);
+    const bool planar = is_planar(first_, exit_face);
+    const Quad through = quad(exit_face);
+    const QuadCrossings only = Faces::crossings(through, winding.of(exit_face), planar);
+    const std::uint32_t rank = only.direction[0] == 0 ? 1 : 0;
+    return left_through(exit_face, rank,
+                        Faces::measure(through, only, static_cast<int>(rank), planar));
+  }
+
+  bool advance() {
+    // As WalkableGrid::neighbor(), without finding the cell's place in the grid anew.
+    const std::size_t axis = face_ / 2;
+    const bool up = face_ % 2 == 1;
+    if (up ? index_[axis] + 2 == mesh_.dimensions[axis] : index_[axis] == 0) return false;
+    const std::uint32_t one = up ? 1u : ~0u;
+    index_[axis] += one;
+    cell_ += one * cell_step_[axis];
+    first_ += one * step_[std::size_t{1} << axis];
+    face_ ^= 1;  // the face behind -i is its neighbour's +i
+    return mesh_.hidden.empty() || !mesh_.hidden[cell_];
+  }
+
+ private:
+  // Whether a face of winding 0 is crossed all the same.
+  template <class QuadOf>
+  bool any_grazed(const HexahedronWindings& winding, const QuadOf& quad) const {
+    if (!Faces::kGrazed || (Faces::kAsksIfPlanar && mesh_.planar_faces == PlanarFaces::all))
+      return false;
     for (std::uint32_t f = 0; f < 6; ++f)
-      for (std::uint32_t rank = 0; rank < static_cast<std::uint32_t>(std::abs(ways[f])); ++rank)
-        crossings[size++] = {measure(f), f, rank, ways[f] > 0};
+      if (winding.of(f) == 0 && winding.may_be_crossed(f) &&
+          Faces::crossings(quad(f), 0, is_planar(first_, f)).grazed())
+        return true;
+    return false;
+  }
+
+  template <class QuadOf>
+  std::optional<Crossing> leave_one_of_several(const HexahedronWindings& winding,
+                                               const QuadOf& quad) {
+    std::array<CellCrossing, 12> crossings;
+    std::size_t size = 0;
+    for (std::uint32_t f = 0; f < 6; ++f) {
+      if (!winding.may_be_crossed(f)) continue;
+      const bool planar = is_planar(first_, f);
+      const QuadCrossings of_face = Faces::crossings(quad(f), winding.of(f), planar);
+      for (std::uint32_t rank = 0; rank < 2; ++rank)
+        if (of_face.direction[rank] != 0)
+          crossings[size++] = {Faces::measure(quad(f), of_face, static_cast<int>(rank), planar), f,
+                               rank, outwards(f) * of_face.direction[rank] > 0};
+    }
     const auto exit = exit_for(crossings.data(), size, face_, rank_, frame_.sign());
     if (!exit) return std::nullopt;
     return left_through(exit->face, exit->rank, exit->place);
   }
 
-  bool advance() {
-    cell_ = mesh_.neighbor(cell_, face_);
-    face_ ^= 1;  // the face behind -i is its neighbour's +i
-    return cell_ != kNone;
+  // 1 if a crossing in the direction of a face's loop leads out of the cell, -1 if in.
+  int outwards(std::uint32_t face) const {
+    return (face % 2 == 1) != mesh_.left_handed ? frame_.sign() : -frame_.sign();
   }
 
- private:
-  // Corners of the faces -i, +i, -j, +j, -k, +k, corner (a, b, c) being a + 2b + 4c. Both cells at
-  // a face go around it from the same corner in the same direction, so they see the same numbers;
-  // from outside of a right-handed cell that is counterclockwise for +i, +j and +k.
-  static constexpr std::uint8_t kLoop[6][4] = {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 4, 5, 1},
-                                               {2, 6, 7, 3}, {0, 1, 3, 2}, {4, 5, 7, 6}};
-
-  static int winding(const std::array<ShearedPoint, 4>& p) {
-    return crossing(p[0], p[1]) + crossing(p[1], p[2]) + crossing(p[2], p[3]) +
-           crossing(p[3], p[0]);
-  }
-
-  // From the winding of the loop above to that seen from outside, and back.
-  int outward(std::uint32_t face, int w) const {
-    return (face % 2 == 1) != mesh_.left_handed ? w : -w;
-  }
-
-  std::array<ShearedPoint, 4> face_loop(const Boundary& boundary) const {
-    const std::uint32_t first = mesh_.first_point(boundary.cell);
-    std::array<ShearedPoint, 4> loop;
-    for (std::size_t i = 0; i < 4; ++i)
-      loop[i] = frame_(mesh_.points[first + step_[kLoop[boundary.face][i]]]);
-    return loop;
+  bool is_planar(std::uint32_t first_point, std::uint32_t face) const {
+    return Faces::kAsksIfPlanar &&
+           mesh_.is_planar(first_point + (face % 2 == 1 ? step_[1u << face / 2] : 0), face / 2);
   }
 
   Crossing left_through(std::uint32_t face, std::uint32_t rank, const Crossing& place) {
@@ -122,10 +147,19 @@ class GridWalker {
 
   const WalkableGrid& mesh_;
   const ShearedFrame& frame_;
-  std::array<std::uint32_t, 8> step_;
+  std::array<std::uint32_t, 8> step_;       // from a cell's first point to its corners
+  std::array<std::uint32_t, 3> cell_step_;  // from a cell to the next along each axis
   std::uint32_t cell_ = kNone;
+  std::array<std::uint32_t, 3> index_{0, 0, 0};
+  std::uint32_t first_ = 0;
   std::uint32_t face_ = 0;
   std::uint32_t rank_ = 0;
 };
+
+/// Planar faces take the cheap path, twisted ones the patch with all its crossings.
+using GridWalker = BasicGridWalker<PlanarOrPatchFaces>;
+/// The thesis' hybrid, and its pure Plücker form, to compare with.
+using HybridGridWalker = BasicGridWalker<PatchFaces>;
+using PluckerGridWalker = BasicGridWalker<TriangleFaces>;
 
 }  // namespace plume

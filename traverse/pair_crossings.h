@@ -11,7 +11,9 @@
 
 namespace plume {
 
-/// One crossing of a cell's face. A face of winding 2 is crossed twice; `rank` tells the two apart.
+/// One crossing of a cell's face. A face may be crossed more than once; `rank` tells its crossings
+/// apart, by what was decided and not by where they were measured, so it means the same one to both
+/// cells at the face.
 struct CellCrossing {
   Crossing place;
   std::uint32_t face;
@@ -21,9 +23,12 @@ struct CellCrossing {
 
 /// Pairs ways in with ways out in the order along the ray and returns the one that belongs to the
 /// entry (face, rank). The i-th way in goes with the i-th way out, so the pairing is one-to-one
-/// whatever the measurements say, and depends on nothing but the cell and the ray. Nothing where
-/// the entry is none of the cell's. `crossings` (size many) is sorted in place; `sign` is the
-/// ray's.
+/// whatever the measurements say, and depends on nothing but the cell and the ray. Two crossings
+/// that nearly coincide (a face just grazed) may be measured in the wrong order, or at the same z:
+/// the walk then meets the cells in another order, or leaves out the sliver between the two (a
+/// closed path of its own, which no way in from the boundary leads to), and is as complete.
+/// Nothing where the entry is none of the cell's. `crossings` (size many) is sorted in place;
+/// `sign` is the ray's.
 inline std::optional<CellCrossing> exit_for(CellCrossing* crossings, std::size_t size,
                                             std::uint32_t face, std::uint32_t rank, int sign) {
   auto before = [sign](const CellCrossing& a, const CellCrossing& b) {

@@ -39,6 +39,14 @@ inline int crossing(const ShearedPoint& a, const ShearedPoint& b) {
   return b.up() ? right_of_ray(a, b) : -right_of_ray(b, a);
 }
 
+/// The same number without branches, for where a processor cannot guess which edges cross y = 0.
+inline int crossing_unbranched(const ShearedPoint& a, const ShearedPoint& b) {
+  const float forth = a.x * b.y, back = b.x * a.y;
+  const unsigned a_up = a.up(), b_up = b.up();
+  return static_cast<int>((b_up & ~a_up) & static_cast<unsigned>(forth > back)) -
+         static_cast<int>((a_up & ~b_up) & static_cast<unsigned>(back > forth));
+}
+
 /// The axis along which a direction's component is largest, the first of several: the z of its
 /// rays' frames.
 inline int longest_axis(const std::array<double, 3>& direction) {

@@ -181,6 +181,45 @@ TEST(WalkableGrid, StoresNoConnectivity) {
   EXPECT_FALSE(grid.left_handed);
 }
 
+TEST(WalkableGrid, KnowsItsPlanarFaces) {
+  auto grid_of = [](const Mesh& mesh) {
+    return make_walkable_grid(mesh, select_field(mesh), check_structure(mesh));
+  };
+  for (const char* name : {"box-hexahedra", "o-grid", "sphere"}) {
+    const WalkableGrid grid = grid_of(generate(name, {6, 0, 1}));
+    EXPECT_EQ(grid.planar_faces, PlanarFaces::all) << name;
+    EXPECT_TRUE(grid.planar_bits.empty()) << name;
+  }
+  // Only those on the boundary are planar: not worth telling.
+  EXPECT_EQ(grid_of(generate("twisted", {6, 0, 1})).planar_faces, PlanarFaces::none);
+
+  // One inner point is moved off the planes of the twelve faces around it, by less than counts and
+  // by more.
+  for (const double by : {1e-7, 1e-6}) {
+    Mesh mesh = generate("box-hexahedra", {4, 0, 1});
+    std::vector<double> points(mesh.points.size());
+    for (std::size_t p = 0; p < points.size(); ++p) points[p] = mesh.points.at<double>(p);
+    const std::size_t moved = 2 + 5 * (2 + 5 * 2);
+    for (std::size_t a = 0; a < 3; ++a) points[3 * moved + a] += by;
+    mesh.points = Array::own(std::move(points));
+    const WalkableGrid grid = grid_of(mesh);
+    if (by < 5e-7) {
+      EXPECT_EQ(grid.planar_faces, PlanarFaces::all);
+      continue;
+    }
+    EXPECT_EQ(grid.planar_faces, PlanarFaces::some);
+    EXPECT_EQ(grid.planar_bits.size(), 3u * 2);  // of 125 points
+    std::size_t twisted = 0;
+    for (std::uint32_t p = 0; p < grid.points.size(); ++p)
+      for (std::uint32_t axis = 0; axis < 3; ++axis) {
+        const std::array<std::uint32_t, 3> index{p % 5, p / 5 % 5, p / 25};
+        if (index[(axis + 1) % 3] == 4 || index[(axis + 2) % 3] == 4) continue;
+        twisted += grid.is_planar(p, axis) ? 0 : 1;
+      }
+    EXPECT_EQ(twisted, 12u);
+  }
+}
+
 TEST(WalkableGrid, HiddenCellsAreBoundary) {
   Mesh mesh = generate("box-hexahedra", {4, 0, 1});
   std::vector<std::uint8_t> hidden(64, 0);
