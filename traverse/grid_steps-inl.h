@@ -117,7 +117,10 @@ class GridSteps {
   };
 
   GridSteps(const WalkableGrid& mesh, int axis)
-      : mesh_(mesh), points_(mesh.points.data()->position), axis_(axis), twisted_(true) {
+      : mesh_(mesh),
+        points_(mesh.points.data()->position),
+        axis_(axis),
+        twisted_(mesh.planar_faces != PlanarFaces::all) {
     const std::uint32_t step[3] = {1, mesh.dimensions[0], mesh.dimensions[0] * mesh.dimensions[1]};
     for (std::size_t a = 0; a < 3; ++a) {
       stride_by_2_[2 * a] = 0u - 2 * step[a];
