@@ -203,13 +203,20 @@ class GridSteps {
     several = hn::Or(several, hn::And(hn::Or(hn::Or(side[0], side[1]), side[2]), side[3]));
     const VF odd = Xor3(right[0], right[1], hn::Xor(right[2], right[3]));
     VF strange = hn::Or(several, hn::Not(odd));
-    // A face of even winding is crossed twice by rounding only where its corners are above and
-    // below y = 0 in turn; twisted ones may be grazed.
+    // A face of winding 2: its corners are above and below y = 0 in turn, its edges cross on the
+    // right and on the left in turn. Twisted faces may be grazed.
     VF before[4];  // the front's edges: do they cross y = 0?
     for (std::size_t m = 0; m < 4; ++m) before[m] = hn::Xor(p.y[m], p.y[(m + 1) % 4]);
-    strange = hn::Or(strange, And3(along[0], along[1], along[2]));
-    for (std::size_t m = 0; m < 4; ++m)
-      strange = hn::Or(strange, And3(before[m], across[(m + 1) % 4], along[m]));
+    auto winds_twice = [&](VF c0, VF c1, VF c2, VF right0, VF right1, VF right2) {
+      return hn::And(And3(c0, c1, c2), hn::And(hn::Xor(right0, right1), hn::Xor(right1, right2)));
+    };
+    strange = hn::Or(strange, winds_twice(along[0], along[1], along[2], right_along[0],
+                                          right_along[1], right_along[2]));
+    for (std::size_t m = 0; m < 4; ++m) {
+      const std::size_t n = (m + 1) % 4;
+      strange = hn::Or(strange, winds_twice(before[m], across[n], along[m], right[m],
+                                            right_across[n], right_along[m]));
+    }
     if (twisted_) strange = hn::Or(strange, Grazed(p, q, side, products));
 
     const VU index[3] = {packet.index[0], packet.index[1], packet.index[2]};
