@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <span>
 
+#include "plume/mesh/walkable_cells.h"
 #include "plume/mesh/walkable_grid.h"
 #include "plume/mesh/walkable_tets.h"
 #include "plume/preint/piece_table.h"
@@ -33,6 +34,9 @@ void composite_packets(const WalkableTets& mesh, const PieceTable& table, int ax
                        float early_termination, PacketFeeder& feeder,
                        std::span<PacketColor> colors);
 void composite_packets(const WalkableGrid& mesh, const PieceTable& table, int axis,
+                       float early_termination, PacketFeeder& feeder,
+                       std::span<PacketColor> colors);
+void composite_packets(const WalkableCells& mesh, const PieceTable& table, int axis,
                        float early_termination, PacketFeeder& feeder,
                        std::span<PacketColor> colors);
 

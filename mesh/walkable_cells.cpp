@@ -200,7 +200,7 @@ std::size_t bytes_of(const std::vector<T>& values) {
 std::size_t WalkableCells::bytes() const {
   return bytes_of(points) + bytes_of(face_begin) + bytes_of(face_points) + bytes_of(face_sides) +
          bytes_of(cell_begin) + bytes_of(cell_faces) + bytes_of(cell_values) +
-         bytes_of(original_cells) + bytes_of(boundary);
+         bytes_of(original_cells) + bytes_of(boundary) + bytes_of(corner_cells);
 }
 
 WalkableCells make_walkable_cells(const Mesh& mesh, const ScalarField& scalar, const Bounds& bounds,

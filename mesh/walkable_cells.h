@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "plume/mesh/corner_cells.h"
 #include "plume/mesh/face_matching.h"
 #include "plume/mesh/findings.h"
 #include "plume/mesh/local_frame.h"
@@ -31,6 +32,7 @@ struct WalkableCells {
   std::vector<float> cell_values;             ///< one a cell where the field is cell-centred
   std::vector<std::uint32_t> original_cells;  ///< empty unless asked for
   std::vector<BoundaryFace> boundary;         ///< `face` is a number in face_sides
+  std::vector<CornerCell> corner_cells;       ///< for packets of rays; empty unless asked for
   std::vector<Finding> findings;
 
   std::size_t cell_count() const { return cell_begin.size() - 1; }

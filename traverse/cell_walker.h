@@ -41,6 +41,9 @@ class CellWalker {
   }
 
   std::uint32_t cell() const { return cell_; }
+  /// The face by which the ray came into the cell, and which of its crossings that was.
+  std::uint32_t face() const { return face_; }
+  std::uint32_t rank() const { return rank_; }
 
   std::optional<Crossing> leave() {
     decided_.clear();

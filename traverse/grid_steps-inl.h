@@ -300,49 +300,31 @@ class GridSteps {
     VF with_next[4];   // of corner m and m + 1
   };
 
-  // Lanes in which a face other than the front of even winding may be crossed twice all the same:
-  // is_grazed() of quad_crossings.h, with room for what rounding does. `odd_sides` are those of odd
-  // winding.
+  // Lanes in which a face other than the front of even winding may be crossed twice all the same.
+  // `odd_sides` are those of odd winding.
   template <bool kMeasure>
   static HWY_INLINE VF Grazed(const QuadLanes<kMeasure>& p, const QuadLanes<kMeasure>& q,
                               const VF (&odd_sides)[4], const Products& products) {
     const DF d;
-    auto product = [&](VF ax, VF ay, VF bx, VF by) {
-      return hn::Sub(hn::MulAdd(ax, by, hn::Zero(d)), hn::Mul(bx, ay));
-    };
-    // Products of two coordinates are below x * y, their rounding below 2^-24 of that; a sum of two
-    // differences of them is off by 12 such at the most.
     VF x = hn::Zero(d), y = hn::Zero(d);
     for (std::size_t m = 0; m < 4; ++m) {
       x = hn::Max(x, hn::Max(hn::Abs(p.x[m]), hn::Abs(q.x[m])));
       y = hn::Max(y, hn::Max(hn::Abs(p.y[m]), hn::Abs(q.y[m])));
     }
-    const VF error = hn::Mul(hn::Mul(x, y), hn::Set(d, 0x1p-20f));
-    const VF tiny = hn::Set(d, 1e-37f);  // above what underflows
-    // Negative where the face is not grazed. Signs of single products are right, or they are 0.
-    auto passed_by = [&](VF v0, VF v2, VF u0, VF u2, VF ac, VF bd) {
-      const VF v1 = hn::Sub(ac, bd), u1 = hn::Add(ac, bd);
-      auto room = [&](VF of) { return hn::MulAdd(hn::Abs(of), error, tiny); };
-      const VF four = hn::Set(d, 4);
-      const VF outer = hn::Mul(v0, v2);
-      const VF sizes = hn::MulAdd(four, hn::Add(hn::Abs(v0), hn::Abs(v2)),
-                                  hn::MulAdd(hn::Set(d, 2), hn::Abs(v1), error));
-      const VF discriminant = hn::NegMulAdd(four, outer, hn::MulAdd(v1, v1, room(sizes)));
-      return hn::Or(Or3(hn::Add(outer, tiny), hn::MulAdd(u0, u2, tiny), discriminant),
-                    hn::Or(hn::NegMulAdd(v0, v1, room(v0)), hn::NegMulAdd(u0, u1, room(u0))));
-    };
+    const GrazeTest test(x, y);
+    const auto product = GrazeTest::Product;
     const VF* const k = products.with_next;
     const VF back_odd =
         hn::Not(hn::Xor(hn::Xor(odd_sides[0], odd_sides[1]), hn::Xor(odd_sides[2], odd_sides[3])));
-    VF grazed = hn::Not(hn::Or(back_odd, passed_by(k[0], hn::Neg(k[2]), hn::Neg(k[3]), k[1],
-                                                   product(q.x[0], q.y[0], q.x[2], q.y[2]),
-                                                   product(q.x[1], q.y[1], q.x[3], q.y[3]))));
+    VF grazed = hn::Not(hn::Or(back_odd, test.PassedBy(k[0], hn::Neg(k[2]), hn::Neg(k[3]), k[1],
+                                                       product(q.x[0], q.y[0], q.x[2], q.y[2]),
+                                                       product(q.x[1], q.y[1], q.x[3], q.y[3]))));
     for (std::size_t m = 0; m < 4; ++m) {
       const std::size_t n = (m + 1) % 4;
-      const VF passed =
-          passed_by(product(p.x[m], p.y[m], p.x[n], p.y[n]), k[m], hn::Neg(products.with_front[m]),
-                    hn::Neg(products.with_front[n]), product(p.x[m], p.y[m], q.x[n], q.y[n]),
-                    product(p.x[n], p.y[n], q.x[m], q.y[m]));
+      const VF passed = test.PassedBy(
+          product(p.x[m], p.y[m], p.x[n], p.y[n]), k[m], hn::Neg(products.with_front[m]),
+          hn::Neg(products.with_front[n]), product(p.x[m], p.y[m], q.x[n], q.y[n]),
+          product(p.x[n], p.y[n], q.x[m], q.y[m]));
       grazed = hn::Or(grazed, hn::Not(hn::Or(odd_sides[m], passed)));
     }
     return grazed;

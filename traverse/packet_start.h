@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "plume/mesh/walkable_cells.h"
 #include "plume/mesh/walkable_grid.h"
 #include "plume/mesh/walkable_tets.h"
 #include "plume/traverse/measure.h"
@@ -104,6 +105,31 @@ inline void set_start(GridStart& start, const WalkableGrid& mesh, const ShearedF
   set_place(start, mesh, frame, face.cell, face.face, rank);
 }
 
+/// A ray ready to be walked through cells of up to eight corners (CornerCell).
+struct CellStart : PacketStart {
+  std::uint32_t from = 0;               ///< of the cell's six faces, or kNoCorners
+  std::uint32_t face = 0;               ///< by which it comes in: a number in face_sides
+  std::uint32_t rank = 0;               ///< of the entry (see pair_crossings.h)
+  const ShearedFrame* frame = nullptr;  ///< must stay where it is
+};
+
+/// Places a start at a face of a cell by which a ray comes into it.
+inline void set_place(CellStart& start, const WalkableCells& mesh, const ShearedFrame& frame,
+                      std::uint32_t cell, std::uint32_t face, std::uint32_t rank) {
+  start.cell = cell;
+  start.from = corner_face(mesh, mesh.corner_cells[cell], cell, face);
+  start.face = face;
+  start.rank = rank;
+  start.frame = &frame;
+}
+
+inline void set_start(CellStart& start, const WalkableCells& mesh, const ShearedFrame& frame,
+                      const BoundaryFace& face, const Crossing& place, std::uint32_t rank,
+                      std::uint32_t ray) {
+  start.set(frame, place, ray);
+  set_place(start, mesh, frame, face.cell, face.face, rank);
+}
+
 /// The same by value.
 inline TetStart make_start(const WalkableTets& mesh, const ShearedFrame& frame,
                            const WalkableTets::Boundary& face, const Crossing& place,
@@ -116,6 +142,14 @@ inline GridStart make_start(const WalkableGrid& mesh, const ShearedFrame& frame,
                             const BoundaryFace& face, const Crossing& place, std::uint32_t rank,
                             std::uint32_t ray) {
   GridStart start;
+  set_start(start, mesh, frame, face, place, rank, ray);
+  return start;
+}
+
+inline CellStart make_start(const WalkableCells& mesh, const ShearedFrame& frame,
+                            const BoundaryFace& face, const Crossing& place, std::uint32_t rank,
+                            std::uint32_t ray) {
+  CellStart start;
   set_start(start, mesh, frame, face, place, rank, ray);
   return start;
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <span>
 
+#include "plume/mesh/walkable_cells.h"
 #include "plume/mesh/walkable_grid.h"
 #include "plume/mesh/walkable_tets.h"
 #include "plume/traverse/packet_start.h"
@@ -13,11 +14,13 @@ namespace plume {
 
 /// Walks all rays of `feeder` and counts, by PacketStart::ray, the cells that each went through
 /// (added to what is there). The rays' longest axis must be `axis`, 0 to 2; their starts are
-/// TetStart or GridStart, as the mesh is. Takes the same way as TetWalker or GridWalker, bit for
-/// bit, with any instruction set.
+/// TetStart, GridStart or CellStart, as the mesh is. Takes the same way as TetWalker, GridWalker or
+/// CellWalker, bit for bit, with any instruction set. WalkableCells need their corner_cells.
 void count_cells(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
                  std::span<std::uint32_t> counts);
 void count_cells(const WalkableGrid& mesh, int axis, PacketFeeder& feeder,
+                 std::span<std::uint32_t> counts);
+void count_cells(const WalkableCells& mesh, int axis, PacketFeeder& feeder,
                  std::span<std::uint32_t> counts);
 
 /// The line integral of the scalar along the passages of a ray.
@@ -34,6 +37,8 @@ void integrate_scalar(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
                       std::span<PacketIntegral> sums);
 void integrate_scalar(const WalkableGrid& mesh, int axis, PacketFeeder& feeder,
                       std::span<PacketIntegral> sums);
+void integrate_scalar(const WalkableCells& mesh, int axis, PacketFeeder& feeder,
+                      std::span<PacketIntegral> sums);
 
 /// Where a ray first meets an isosurface.
 struct PacketHit {
@@ -48,6 +53,8 @@ struct PacketHit {
 void find_isosurface(const WalkableTets& mesh, int axis, float isovalue, PacketFeeder& feeder,
                      std::span<PacketHit> hits);
 void find_isosurface(const WalkableGrid& mesh, int axis, float isovalue, PacketFeeder& feeder,
+                     std::span<PacketHit> hits);
+void find_isosurface(const WalkableCells& mesh, int axis, float isovalue, PacketFeeder& feeder,
                      std::span<PacketHit> hits);
 
 /// Segments of packets, for tests: what every lane met, in the order in which it did.
@@ -65,6 +72,8 @@ class PacketSegmentSink {
 void walk_segments(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
                    PacketSegmentSink& sink);
 void walk_segments(const WalkableGrid& mesh, int axis, PacketFeeder& feeder,
+                   PacketSegmentSink& sink);
+void walk_segments(const WalkableCells& mesh, int axis, PacketFeeder& feeder,
                    PacketSegmentSink& sink);
 
 /// The instruction set that is used: "AVX3", "AVX2", "SSE4", "NEON", ...

@@ -83,6 +83,43 @@ HWY_INLINE MF MeasurePatch(const QuadLanes<true>& p, VF winding, VF& z, VF& s) {
   return hn::Not(inside);
 }
 
+// Whether faces of winding 0 may be crossed, in and out again: is_grazed() of quad_crossings.h with
+// room for what single precision does, so that no crossing is missed.
+class GrazeTest {
+ public:
+  // Bounds of the absolute coordinates of all corners.
+  GrazeTest(VF x, VF y) {
+    // Products of two coordinates are below x * y, their rounding below 2^-24 of that; a sum of two
+    // differences of them is off by 12 such at the most.
+    error_ = hn::Mul(hn::Mul(x, y), hn::Set(DF(), 0x1p-20f));
+  }
+
+  // Cross product whose sign is right, or it is 0.
+  static HWY_INLINE VF Product(VF ax, VF ay, VF bx, VF by) {
+    return hn::Sub(hn::MulAdd(ax, by, hn::Zero(DF())), hn::Mul(bx, ay));
+  }
+
+  // Negative where the face a, b, c, d is not grazed: v0 and v2 are the products of a and b, d and
+  // c, u0 and u2 those of a and d, b and c.
+  HWY_INLINE VF PassedBy(VF v0, VF v2, VF u0, VF u2, VF ac, VF bd) const {
+    const DF d;
+    const VF tiny = hn::Set(d, 1e-37f);  // above what underflows
+    const VF four = hn::Set(d, 4);
+    const VF v1 = hn::Sub(ac, bd), u1 = hn::Add(ac, bd);
+    auto room = [&](VF of) { return hn::MulAdd(hn::Abs(of), error_, tiny); };
+    const VF outer = hn::Mul(v0, v2);
+    const VF sizes = hn::MulAdd(four, hn::Add(hn::Abs(v0), hn::Abs(v2)),
+                                hn::MulAdd(hn::Set(d, 2), hn::Abs(v1), error_));
+    const VF discriminant = hn::NegMulAdd(four, outer, hn::MulAdd(v1, v1, room(sizes)));
+    const VF ends = hn::Or(hn::Add(outer, tiny), hn::MulAdd(u0, u2, tiny));
+    const VF middles = hn::Or(hn::NegMulAdd(v0, v1, room(v0)), hn::NegMulAdd(u0, u1, room(u0)));
+    return hn::Or(hn::Or(ends, discriminant), middles);
+  }
+
+ private:
+  VF error_;
+};
+
 }  // namespace HWY_NAMESPACE
 }  // namespace plume
 HWY_AFTER_NAMESPACE();

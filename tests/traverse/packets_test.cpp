@@ -235,6 +235,50 @@ TEST(GridPackets, WalkAsFewRaysAsOne) {
   expect_grid_twins(generate("box-hexahedra", {3, 0.2, 5}), 3);
 }
 
+WalkableCells cells_of(const Mesh& mesh) {
+  WalkableCells cells = make_walkable_cells(mesh, select_field(mesh), check_structure(mesh), false);
+  cells.corner_cells = make_corner_cells(cells);
+  return cells;
+}
+
+void expect_cell_twins(const Mesh& mesh, std::uint64_t rays) {
+  expect_twins<CellWalker>(mesh, cells_of(mesh), rays, 8e-6);
+}
+
+TEST(CellPackets, TakeTheWayOfTheirTwinThroughWedges) {
+  expect_cell_twins(generate("box-wedges", {8, 0, 5}), 10000);
+  expect_cell_twins(generate("box-wedges", {8, 0.25, 5}), 10000);
+}
+TEST(CellPackets, TakeTheWayOfTheirTwinThroughMixedCells) {
+  expect_cell_twins(generate("box-mixed", {8, 0, 5}), 10000);
+  expect_cell_twins(generate("box-mixed", {8, 0.25, 5}), 10000);
+}
+TEST(CellPackets, TakeTheWayOfTheirTwinThroughInvertedCells) {
+  expect_cell_twins(generate("box-mixed", {6, 3, 5}), 5000);
+}
+TEST(CellPackets, TakeTheWayOfTheirTwinThroughTwoBlocksOfHexahedra) {
+  expect_cell_twins(generate("two-blocks", {8, 0.25, 5}), 10000);
+}
+
+// Cells that packets know nothing of, as polyhedra, among others.
+TEST(CellPackets, AskTheirTwinInPolyhedra) {
+  const Mesh mesh = generate("box-mixed", {8, 0.25, 5});
+  WalkableCells cells = cells_of(mesh);
+  auto is_other = [](std::uint32_t cell) { return cell % 5 == 0; };
+  for (std::uint32_t c = 0; c < cells.cell_count(); ++c) {
+    CornerCell& cell = cells.corner_cells[c];
+    for (std::uint32_t& link : cell.links)
+      if (link != kNone && is_other(link / 8)) link |= kNoCorners;
+    if (!is_other(c)) continue;
+    cell.points.fill(0);
+    cell.links.fill(kNone);
+    cell.other = 1;
+  }
+  expect_twins<CellWalker>(mesh, cells, 10000, 8e-6);
+}
+
+TEST(CellPackets, WalkAsFewRaysAsOne) { expect_cell_twins(generate("box-mixed", {3, 0.2, 5}), 3); }
+
 // Three coordinates next to zero have a product that single precision does not know.
 void expect_needle_measured(double width) {
   SCOPED_TRACE(width);

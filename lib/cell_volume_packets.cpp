@@ -1,0 +1,35 @@
+#include "plume/lib/volume_packets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "plume/lib/cell_volume_packets.cpp"
+#include "hwy/foreach_target.h"
+#include "plume/lib/volume_consumer-inl.h"
+#include "plume/traverse/cell_steps-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace plume {
+namespace HWY_NAMESPACE {
+
+void CompositeCell(const WalkableCells& mesh, const PieceTable& table, int axis,
+                   float early_termination, PacketFeeder& feeder, std::span<PacketColor> colors) {
+  CompositeBy(table, mesh.cell_values, early_termination, colors,
+              [&](auto& consumer) { Walk(mesh, axis, consumer, feeder); });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace plume
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace plume {
+
+HWY_EXPORT(CompositeCell);
+
+void composite_packets(const WalkableCells& mesh, const PieceTable& table, int axis,
+                       float early_termination, PacketFeeder& feeder,
+                       std::span<PacketColor> colors) {
+  HWY_DYNAMIC_DISPATCH(CompositeCell)(mesh, table, axis, early_termination, feeder, colors);
+}
+
+}  // namespace plume
+#endif  // HWY_ONCE
