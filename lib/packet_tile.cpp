@@ -100,5 +100,6 @@ void PacketTile<Walker>::composite() {
 
 template class PacketTile<TetWalker>;
 template class PacketTile<GridWalker>;
+template class PacketTile<CellWalker>;
 
 }  // namespace plume

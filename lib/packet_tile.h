@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "plume/lib/volume_packets.h"
@@ -27,7 +27,7 @@ struct PacketResult {
 /// mesh, or one of whose passages begins before the last one ended (parts that overlap), needs its
 /// segments cut: such rays are left to trace(), and `colors` has nothing for them.
 ///
-/// For TetWalker and GridWalker, whose twins the packets are.
+/// For TetWalker, GridWalker and CellWalker, whose twins the packets are.
 template <class Walker>
 class PacketTile {
  public:
@@ -54,7 +54,7 @@ class PacketTile {
     double t_min = 0;
     bool valid = false;  // has a direction
     Entries<Walker> all_entries;
-    std::conditional_t<std::is_same_v<Walker, TetWalker>, TetStart, GridStart> start;
+    decltype(make_start(std::declval<Mesh>(), std::declval<ShearedFrame>(), {}, {}, 0, 0)) start;
     std::uint32_t entries = 0;
     bool declined = false;
     bool waiting = false;  // has an entry that was not walked yet
@@ -77,5 +77,6 @@ class PacketTile {
 
 extern template class PacketTile<TetWalker>;
 extern template class PacketTile<GridWalker>;
+extern template class PacketTile<CellWalker>;
 
 }  // namespace plume

@@ -76,6 +76,18 @@ struct Counts {
   }
 };
 
+// Whether there are packets for what the scene is walked as.
+bool has_packets(const Scene& scene) {
+  return std::visit(
+      [](const auto& walkable) {
+        using Walker = typename std::decay_t<decltype(*walkable)>::Walker;
+        if constexpr (std::is_same_v<Walker, CellWalker>)
+          return !walkable->mesh.corner_cells.empty();
+        return !std::is_same_v<Walker, RectilinearWalker>;
+      },
+      scene.body().walkable);
+}
+
 // One frame: shared by all tiles.
 class Frame {
  public:
@@ -156,7 +168,8 @@ class Frame {
     const bool linear = settings_.order == ScalarOrder::linear ||
                         scene_.field().association == Association::cell ||
                         std::string(scene_.form()) == "tetrahedra";
-    return linear && !settings_.scalar_twin && settings_.mode == Mode::volume &&
+    return linear && has_packets(scene_) && !settings_.scalar_twin &&
+           settings_.mode == Mode::volume &&
            settings_.integrator.kind == IntegratorKind::closed_form && settings_.channels.empty();
   }
 
@@ -356,7 +369,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   Frame frame(scene, camera, effective);
   RenderResult result;
   result.statistics.plan = describe_plan(scene, settings);
-  if (const std::string form = scene.form(); form == "tetrahedra" || form == "grid")
+  if (has_packets(scene))
     result.statistics.plan.push_back(
         frame.by_packets() ? fmt::format("rays: in packets, {}", packet_instruction_set())
                            : "rays: one by one (packets serve the volume mode by the closed form, "

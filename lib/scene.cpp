@@ -102,9 +102,12 @@ Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_un
   else if (all_tetrahedra(mesh))
     take(std::make_unique<Walkable<TetWalker>>(
         make_walkable_tets(mesh, field, body_->bounds, options.keep_cell_numbers)));
-  else
-    take(std::make_unique<Walkable<CellWalker>>(
-        make_walkable_cells(mesh, field, body_->bounds, options.keep_cell_numbers)));
+  else {
+    WalkableCells cells =
+        make_walkable_cells(mesh, field, body_->bounds, options.keep_cell_numbers);
+    cells.corner_cells = make_corner_cells(cells);
+    take(std::make_unique<Walkable<CellWalker>>(std::move(cells)));
+  }
   body_->field.values = {};
   body_->unit_distance = fitted_unit_distance(*this);
   body_->transfer_function = to_transfer_function(body_->default_map, body_->unit_distance);

@@ -13,6 +13,7 @@
 #include "hwy/targets.h"
 #include "plume/datasets/generate.h"
 #include "plume/lib/plume.h"
+#include "plume/mesh/explicit_cells.h"
 
 namespace plume::test {
 namespace {
@@ -87,7 +88,8 @@ class EachInstructionSet : public testing::Test {
 // Meshes that packets walk.
 class Packets : public EachInstructionSet, public testing::WithParamInterface<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Each, Packets,
-                         testing::Values("box-tetrahedra", "box-hexahedra", "twisted"),
+                         testing::Values("box-tetrahedra", "box-hexahedra", "twisted", "box-wedges",
+                                         "box-mixed"),
                          [](const auto& one) {
                            std::string name = one.param;
                            std::erase(name, '-');
@@ -123,7 +125,12 @@ TEST_P(Packets, LeaveCamerasInsideToTheTwin) {
 }
 
 TEST_P(Packets, TakeCellData) {
-  Scene scene(generate(GetParam(), {9, 0.2, 2}), {{"cell_radius", {}}});
+  Mesh mesh = generate(GetParam(), {9, 0.2, 2});
+  std::vector<float> values;
+  for (std::size_t c = 0; c < mesh.cell_count(); ++c)
+    values.push_back(static_cast<float>(c * 7919 % 1000));
+  mesh.fields.push_back({"numbers", Association::cell, 1, Array::own(std::move(values))});
+  Scene scene(mesh, {{"numbers", {}}});
   for_each([&] { EXPECT_LE(worst_difference(scene, oblique(scene)), kBound); });
 }
 
@@ -136,15 +143,22 @@ Mesh slabs(const std::string& name) {
     mesh.hidden_cells = Array::own(std::move(hidden));
     return mesh;
   }
-  std::vector<std::int32_t> kept;
-  for (std::size_t c = 0; c < mesh.cell_count(); ++c) {
+  const CellReader cells(mesh);
+  std::vector<std::uint8_t> types;
+  std::vector<std::int64_t> offsets{0};
+  std::vector<std::int64_t> kept;
+  std::vector<std::uint32_t> ids;
+  for (std::size_t c = 0; c < cells.size(); ++c) {
+    cells.points(c, ids);
     double x = 0;
-    for (std::size_t v = 0; v < 4; ++v)
-      x += 0.25 * mesh.points.at<double>(3 * mesh.cells.connectivity.at<std::size_t>(4 * c + v));
+    for (const std::uint32_t id : ids) x += point_at(mesh, id)[0] / static_cast<double>(ids.size());
     if (static_cast<int>(x * 8) % 2 == 1) continue;
-    for (std::size_t v = 0; v < 4; ++v)
-      kept.push_back(mesh.cells.connectivity.at<std::int32_t>(4 * c + v));
+    types.push_back(static_cast<std::uint8_t>(cells.type(c)));
+    kept.insert(kept.end(), ids.begin(), ids.end());
+    offsets.push_back(static_cast<std::int64_t>(kept.size()));
   }
+  mesh.cells.types = Array::own(std::move(types));
+  mesh.cells.offsets = Array::own(std::move(offsets));
   mesh.cells.connectivity = Array::own(std::move(kept));
   std::erase_if(mesh.fields, [](const Field& f) { return f.association == Association::cell; });
   return mesh;
