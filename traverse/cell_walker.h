@@ -38,6 +38,7 @@ class CellWalker {
     cell_ = boundary.cell;
     face_ = boundary.face;
     rank_ = rank;
+    entry_.reset();
   }
 
   std::uint32_t cell() const { return cell_; }
@@ -49,6 +50,10 @@ class CellWalker {
     decided_.clear();
     std::size_t exit = 0;
     for (const std::uint32_t face : mesh_.faces_of(cell_)) {
+      if (entry_ && face == face_) {
+        decided_.push_back({*entry_, face, false});
+        continue;
+      }
       // Loops are seen from outside of their owner.
       const int outwards = mesh_.face_sides[face].owner == cell_ ? frame_.sign() : -frame_.sign();
       for_each_crossing_of(face, [&](const LoopCrossing& crossing) {
@@ -58,9 +63,11 @@ class CellWalker {
     }
     if (decided_.size() == 2) {
       const Decided& only = decided_[exit];
+      entry_ = only.crossing;
       return left_through(only.face, only.crossing.rank,
                           measure(sheared_loop(only.face), only.crossing));
     }
+    entry_.reset();
     crossings_.clear();
     for (const Decided& d : decided_)
       crossings_.push_back(
@@ -116,6 +123,7 @@ class CellWalker {
   std::uint32_t cell_ = kNone;
   std::uint32_t face_ = 0;
   std::uint32_t rank_ = 0;
+  std::optional<LoopCrossing> entry_;  // all that the face has, where the cell before told
   std::vector<Decided> decided_;
   mutable std::vector<ShearedPoint> points_ = std::vector<ShearedPoint>(8);
   std::vector<CellCrossing> crossings_;
