@@ -63,7 +63,8 @@ class CellWalker {
     }
     if (decided_.size() == 2) {
       const Decided& only = decided_[exit];
-      entry_ = only.crossing;
+      entry_.reset();
+      if (decided_[0].face != decided_[1].face) entry_ = only.crossing;
       return left_through(only.face, only.crossing.rank,
                           measure(sheared_loop(only.face), only.crossing));
     }
