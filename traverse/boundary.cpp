@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "plume/mesh/error.h"
+#include "plume/traverse/line_packet.h"
 
 namespace plume {
 namespace {
@@ -75,6 +76,7 @@ template <class Walker>
 struct Query {
   RTCIntersectContext context;  // first: Embree hands it back, and so the whole
   const QueryRay<Walker>* rays;
+  const LinePacket* lines;  // of those rays; null for a single one
 };
 
 bool before(const Entry& a, const Entry& b, int sign) {
@@ -115,8 +117,18 @@ void face_intersect(const RTCIntersectFunctionNArguments* args) {
   const auto& face = mesh.boundary[args->primID];
   RTCRayN* const rays = RTCRayHitN_RayN(args->rayhit, args->N);
   RTCHitN* const hits = RTCRayHitN_HitN(args->rayhit, args->N);
+  unsigned candidates = 0xFFFFu;
+  if (query.lines != nullptr && args->N == LinePacket::kRays) {
+    thread_local std::vector<std::uint32_t> ids;
+    thread_local std::vector<const WalkablePoint*> corners;
+    ids.clear();
+    face_points(mesh, face, ids);
+    corners.resize(ids.size());
+    for (std::size_t c = 0; c < ids.size(); ++c) corners[c] = &mesh.points[ids[c]];
+    candidates = query.lines->may_cross(corners);
+  }
   for (unsigned i = 0; i < args->N; ++i) {
-    if (args->valid[i] == 0) continue;
+    if (args->valid[i] == 0 || (candidates >> i & 1) == 0) continue;
     const QueryRay<Walker>& ray = query.rays[RTCRayN_id(rays, args->N, i)];
     const int sign = ray.frame->sign();
     EntryList& list = *ray.found;
@@ -216,13 +228,14 @@ EntryList BoundaryIndex<Walker>::next_entries(const Walker& walker, const Sheare
 template <class Walker>
 void BoundaryIndex<Walker>::first_entries(std::span<const ShearedFrame* const> frames,
                                           std::span<EntryList* const> found) const {
-  constexpr std::size_t kRays = 16;
+  constexpr std::size_t kRays = LinePacket::kRays;
   std::vector<Walker> walkers;
   walkers.reserve(kRays);
   for (std::size_t begin = 0; begin < frames.size(); begin += kRays) {
     const std::size_t size = std::min(kRays, frames.size() - begin);
     walkers.clear();
     std::array<QueryRay<Walker>, kRays> rays;
+    LinePacket lines;
     alignas(64) std::array<int, kRays> valid{};
     RTCRayHit16 packet{};  // aligned to 64 bytes by its type
     for (std::size_t i = 0; i < size; ++i) {
@@ -230,6 +243,7 @@ void BoundaryIndex<Walker>::first_entries(std::span<const ShearedFrame* const> f
       walkers.emplace_back(*mesh_, frame);
       found[begin + i]->clear();
       rays[i] = {&walkers.back(), &frame, nullptr, found[begin + i]};
+      lines.set(i, frame);
       valid[i] = -1;
       const auto start = frame.start();
       const auto step = frame.step();
@@ -248,6 +262,7 @@ void BoundaryIndex<Walker>::first_entries(std::span<const ShearedFrame* const> f
     rtcInitIntersectContext(&query.context);
     query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
     query.rays = rays.data();
+    query.lines = &lines;
     rtcIntersect16(valid.data(), implementation_->scene.get(), &query.context, &packet);
   }
 }
