@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "plume/mesh/error.h"
@@ -22,6 +23,7 @@ namespace {
 // is 2^-17. Wider boxes cost time, never a decision.
 constexpr float kMargin = 7.62939453125e-06f;
 
+// The loop of a face, seen from outside.
 void face_points(const WalkableTets&, const WalkableTets::Boundary& face,
                  std::vector<std::uint32_t>& ids) {
   ids.assign(face.loop.begin(), face.loop.end());
@@ -31,8 +33,9 @@ void face_points(const WalkableGrid& mesh, BoundaryFace face, std::vector<std::u
   const std::uint32_t step[3] = {1, mesh.dimensions[0], mesh.dimensions[0] * mesh.dimensions[1]};
   const std::uint32_t axis = face.face / 2;
   const std::uint32_t base = mesh.first_point(face.cell) + (face.face % 2) * step[axis];
-  const std::uint32_t a = step[(axis + 1) % 3], b = step[(axis + 2) % 3];
-  for (const std::uint32_t id : {base, base + a, base + b, base + a + b}) ids.push_back(id);
+  std::uint32_t a = step[(axis + 1) % 3], b = step[(axis + 2) % 3];
+  if ((face.face % 2 == 1) == mesh.left_handed) std::swap(a, b);
+  for (const std::uint32_t id : {base, base + a, base + a + b, base + b}) ids.push_back(id);
 }
 
 void face_points(const WalkableCells& mesh, BoundaryFace face, std::vector<std::uint32_t>& ids) {
@@ -125,7 +128,7 @@ void face_intersect(const RTCIntersectFunctionNArguments* args) {
     face_points(mesh, face, ids);
     corners.resize(ids.size());
     for (std::size_t c = 0; c < ids.size(); ++c) corners[c] = &mesh.points[ids[c]];
-    candidates = query.lines->may_cross(corners);
+    candidates = query.lines->may_enter(corners);
   }
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0 || (candidates >> i & 1) == 0) continue;

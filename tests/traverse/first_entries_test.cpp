@@ -1,0 +1,90 @@
+// First entries found for sixteen rays at a time are those of single rays.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstdint>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "adversarial_rays.h"
+#include "plume/datasets/generate.h"
+#include "plume/mesh/validate.h"
+#include "plume/traverse/boundary.h"
+
+namespace plume::test {
+namespace {
+
+// Rays in groups of one longest axis, as tiles have them, and as they come.
+template <class Walker>
+void expect_same_entries(const Mesh& user_mesh, const typename Walker::Mesh& mesh) {
+  const BoundaryIndex<Walker> boundary(mesh);
+  AdversarialRays make_ray(user_mesh, bounds_of(user_mesh.points), 17);
+  std::array<std::vector<ShearedFrame>, 4> groups;
+  for (std::uint64_t i = 0; i < 6000; ++i) {
+    ShearedFrame frame;
+    ASSERT_TRUE(frame.set(make_ray(i), mesh.frame));
+    groups[static_cast<std::size_t>(frame.axis())].push_back(frame);
+    groups[3].push_back(frame);
+  }
+  std::size_t entries = 0;
+  for (const auto& frames : groups) {
+    std::vector<EntryList> found(frames.size());
+    std::vector<const ShearedFrame*> pointers;
+    std::vector<EntryList*> lists;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      pointers.push_back(&frames[i]);
+      lists.push_back(&found[i]);
+    }
+    boundary.first_entries(pointers, lists);
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      const Walker walker(mesh, frames[i]);
+      const EntryList expected = boundary.next_entries(walker, frames[i]);
+      ASSERT_EQ(found[i].size, expected.size) << "ray " << i;
+      entries += expected.size;
+      for (std::uint32_t e = 0; e < expected.size; ++e) {
+        ASSERT_EQ(found[i].entries[e].boundary, expected.entries[e].boundary) << "ray " << i;
+        ASSERT_EQ(found[i].entries[e].rank, expected.entries[e].rank) << "ray " << i;
+        ASSERT_EQ(found[i].entries[e].place.z, expected.entries[e].place.z) << "ray " << i;
+      }
+    }
+  }
+  EXPECT_GT(entries, 4000u);
+}
+
+TEST(FirstEntries, AreThoseOfSingleRaysIntoTetrahedra) {
+  for (const double jitter : {0.0, 0.25, 3.0}) {
+    const Mesh mesh = generate("box-tetrahedra", {6, jitter, 5});
+    expect_same_entries<TetWalker>(
+        mesh, make_walkable_tets(mesh, select_field(mesh), check_structure(mesh), false));
+  }
+}
+
+TEST(FirstEntries, AreThoseOfSingleRaysIntoGrids) {
+  for (const char* name : {"box-hexahedra", "blunt-body", "o-grid", "sphere"}) {
+    SCOPED_TRACE(name);
+    Mesh mesh = generate(name, {8, 0.25, 5});
+    expect_same_entries<GridWalker>(
+        mesh, make_walkable_grid(mesh, select_field(mesh), check_structure(mesh)));
+    // Twisted faces at the boundary, too.
+    std::vector<std::uint8_t> hidden(mesh.cell_count());
+    std::mt19937_64 random(7);
+    for (auto& one : hidden) one = random() % 3 == 0;
+    mesh.hidden_cells = Array::own(std::move(hidden));
+    expect_same_entries<GridWalker>(
+        mesh, make_walkable_grid(mesh, select_field(mesh), check_structure(mesh)));
+  }
+}
+
+TEST(FirstEntries, AreThoseOfSingleRaysIntoCellsOfOtherKinds) {
+  for (const char* name : {"box-wedges", "box-mixed", "box-polyhedra", "two-blocks"}) {
+    SCOPED_TRACE(name);
+    const Mesh mesh = generate(name, {6, 0.25, 5});
+    expect_same_entries<CellWalker>(
+        mesh, make_walkable_cells(mesh, select_field(mesh), check_structure(mesh), false));
+  }
+}
+
+}  // namespace
+}  // namespace plume::test
