@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -13,6 +14,7 @@
 #include "plume/mesh/rectilinear_axes.h"
 #include "plume/mesh/validate.h"
 #include "plume/tests/bench/timing.h"
+#include "plume/traverse/packets.h"
 #include "plume/traverse/trace_rectilinear.h"
 
 namespace plume::bench {
@@ -92,6 +94,75 @@ Walk walk(const std::vector<Ray>& rays, const Follow& follow) {
   return result;
 }
 
+// Hexahedra by packets: all first hits, then all rays of each axis. The cube is left once.
+class PacketRays {
+ public:
+  explicit PacketRays(const Input& input)
+      : input_(input), frames_(input.rays.size()), lists_(input.rays.size()) {
+    for (std::size_t i = 0; i < frames_.size(); ++i) {
+      frame_at_.push_back(&frames_[i]);
+      list_at_.push_back(&lists_[i]);
+    }
+  }
+
+  Walk walk() {
+    Walk result;
+    const double start = thread_seconds();
+    const Form<GridWalker>& form = *input_.hexahedra;
+    for (std::size_t i = 0; i < frames_.size(); ++i)
+      frames_[i].set(input_.rays[i], form.mesh.frame);
+    for (EntryList& list : lists_) list.clear();
+    form.boundary.first_entries(frame_at_, list_at_);
+    std::vector<PacketIntegral> sums(frames_.size());
+    for (int axis = 0; axis < 3; ++axis) {
+      Feeder feeder(*this, axis);
+      integrate_scalar(form.mesh, axis, feeder, sums);
+    }
+    for (const PacketIntegral& sum : sums) {
+      result.cells += sum.cells;
+      result.length += static_cast<double>(sum.length);
+      result.sum += 2 * static_cast<double>(sum.integral);
+    }
+    result.seconds = thread_seconds() - start;
+    return result;
+  }
+
+ private:
+  class Feeder : public PacketFeeder {
+   public:
+    Feeder(const PacketRays& rays, int axis) : rays_(rays), axis_(axis) {}
+
+    const PacketStart* next(const PacketStart* finished) override {
+      const WalkableGrid& mesh = rays_.input_.hexahedra->mesh;
+      for (; at_ < rays_.frames_.size(); ++at_) {
+        if (rays_.frames_[at_].axis() != axis_ || rays_.lists_[at_].size == 0) continue;
+        const std::size_t lane =
+            finished
+                ? static_cast<std::size_t>(static_cast<const GridStart*>(finished) - starts_.data())
+                : used_++;
+        const Entry& entry = rays_.lists_[at_].entries[0];
+        set_start(starts_[lane], mesh, rays_.frames_[at_], mesh.boundary[entry.boundary],
+                  entry.place, entry.rank, static_cast<std::uint32_t>(at_));
+        ++at_;
+        return &starts_[lane];
+      }
+      return nullptr;
+    }
+
+   private:
+    const PacketRays& rays_;
+    const int axis_;
+    std::array<GridStart, kMaxPacketLanes> starts_;
+    std::size_t used_ = 0, at_ = 0;
+  };
+
+  const Input& input_;
+  std::vector<ShearedFrame> frames_;
+  std::vector<EntryList> lists_;
+  std::vector<const ShearedFrame*> frame_at_;
+  std::vector<EntryList*> list_at_;
+};
+
 void fail(benchmark::State& state, const std::string& what) {
   failed = true;
   std::fprintf(stderr, "plume_bench: regular grid: %s\n", what.c_str());
@@ -100,7 +171,8 @@ void fail(benchmark::State& state, const std::string& what) {
 
 void run(benchmark::State& state, int size, ScalarOrder order) {
   const Input& input = input_of(size);
-  std::vector<double> ours, theirs, ratios;
+  PacketRays packets(input);
+  std::vector<double> ours, theirs, of_packets, ratios, to_packets;
   for (auto unused : state) {
     (void)unused;
     const Walk as_hexahedra = walk(input.rays, [&](const Ray& ray, const auto& visit) {
@@ -109,22 +181,30 @@ void run(benchmark::State& state, int size, ScalarOrder order) {
     const Walk as_such = walk(input.rays, [&](const Ray& ray, const auto& visit) {
       return trace(input.regular->mesh, input.regular->boundary, ray, visit, order);
     });
+    const Walk by_packets = packets.walk();
     benchmark::DoNotOptimize(as_such.inner);
     state.SetIterationTime(as_such.seconds);
     ours.push_back(as_such.rate());
     theirs.push_back(as_hexahedra.rate());
+    of_packets.push_back(by_packets.rate());
     ratios.push_back(as_such.rate() / as_hexahedra.rate());
+    to_packets.push_back(as_such.rate() / by_packets.rate());
     // Values at planes are the same for every order.
-    auto differ = [](double a, double b) { return !(std::abs(a - b) <= 1e-5 * std::abs(b)); };
-    if (differ(as_such.length, as_hexahedra.length) || differ(as_such.sum, as_hexahedra.sum) ||
-        differ(as_such.cells, as_hexahedra.cells)) {
-      fail(state, "not what the walker of hexahedra saw");
+    auto differ = [&as_such](const Walk& other) {
+      auto off = [](double a, double b) { return !(std::abs(a - b) <= 1e-5 * std::abs(b)); };
+      return off(as_such.length, other.length) || off(as_such.sum, other.sum) ||
+             off(as_such.cells, other.cells);
+    };
+    if (differ(as_hexahedra) || differ(by_packets)) {
+      fail(state, "not what the walkers of hexahedra saw");
       return;
     }
   }
   state.counters["Mcells/s"] = median(ours);
   state.counters["hexahedra_Mcells/s"] = median(theirs);
+  state.counters["packets_Mcells/s"] = median(of_packets);
   state.counters["ratio"] = median(ratios);
+  state.counters["to_packets"] = median(to_packets);
   state.counters["bytes/point"] = static_cast<double>(input.regular->mesh.bytes()) /
                                   static_cast<double>(input.regular->mesh.point_count());
   if (order == ScalarOrder::linear && median(ratios) < kLeastRegularRatio)

@@ -8,10 +8,11 @@ inline constexpr double kLeastRegularRatio = 2;
 
 /// Registers walk/regular/<cells along an edge>/<linear, quadratic, cubic> with Google Benchmark:
 /// one ray after the other on one thread, in random directions. Rounds take turns with the
-/// curvilinear grid's walker, whose scalar is linear. Reported are
-/// - Mcells/s, and hexahedra_Mcells/s: million cells a second of the thread's time on the
-/// processor;
-/// - ratio: the one by the other;
+/// curvilinear grid's scalar walker, whose scalar is linear, and with its packets (of which regular
+/// grids have none); first hits are part of all. Reported are
+/// - Mcells/s, hexahedra_Mcells/s, packets_Mcells/s: million cells a second of the thread's time on
+///   the processor;
+/// - ratio, to_packets: the first by the second, and by the third;
 /// - bytes/point: of the walkable form.
 void register_regular_benchmarks(int rounds);
 
