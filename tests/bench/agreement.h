@@ -39,7 +39,8 @@ std::string problem(const BenchWalker& walker, Family family, Mode mode,
 /// The same of a walker's sums, of any likeness. Where a walker takes faces for another surface,
 /// passages are compared by their lengths (Mode::integral); in the other modes all of a view
 /// together: as many cells within a third (two triangles are grazed more often than a patch),
-/// PassageSum::first within a twentieth (across a face, its scalar has a crease).
+/// PassageSum::first within a twentieth (their scalar has a crease across a face), but for
+/// isosurfaces, which a ray that just touches them meets in one and not in the other.
 std::string problem(const BenchWalker& walker, const BenchMesh& mesh, Mode mode,
                     std::span<const PassageSum> reference, std::span<const PassageSum> sums);
 

@@ -182,7 +182,7 @@ const std::vector<MeshSource>& mesh_sources(Family family) {
       box_of(Family::tetrahedra, "box-tetrahedra", 20),
       box_of(Family::cells, "box-tetrahedra", 20),
       box_of(Family::cells, "box-wedges", 29),
-      box_of(Family::cells, "box-mixed", 25),
+      box_of(Family::cells, "box-mixed", 27),
       {Family::cells, "box-hexahedra", 512, 4, 1, CellOrder::hilbert,
        []() -> std::optional<Mesh> {
          return without_indices(generate("box-hexahedra", {36, 0.2, 1}));

@@ -62,8 +62,9 @@ TEST(GridBenchWalkers, AreFoundOutWhereTheySkipWork) {
     reference(Family::hexahedra).walk(mesh, view, mode, right);
     std::vector<PassageSum> sums = right;
     EXPECT_EQ(problem(hybrid, mesh, mode, right, sums), "");
-    // Of every other passage nothing but the first cell.
-    for (std::size_t i = 0; i < sums.size(); i += 2) sums[i] = {1, 0, 0};
+    // Of three passages in four nothing but the first cell.
+    for (std::size_t i = 0; i < sums.size(); ++i)
+      if (i % 4 != 0) sums[i] = {1, 0, 0};
     EXPECT_NE(problem(hybrid, mesh, mode, right, sums), "") << mode_name(mode);
     EXPECT_NE(problem(reference(Family::hexahedra), mesh, mode, right, sums), "");
   }

@@ -70,40 +70,17 @@ class Bench {
       (void)unused;
       state.SetIterationTime(own.rounds[round++ % own.rounds.size()]);
     }
-    WalkerResult result;
-    result.family = source_.family;
-    result.mesh = source_.name;
-    result.walker = walker.name;
-    result.mode = mode;
-    result.mesh_cells = mesh_->cell_count;
-    result.million_cells_per_second = own.million_cells_per_second();
-    result.ratio_to_walk =
-        own.million_cells_per_second() / times_of(Mode::cells).front().million_cells_per_second();
-    result.bytes_per_cell =
-        static_cast<double>(walker.bytes(*mesh_)) / static_cast<double>(result.mesh_cells);
     const WalkerTimes& base = of(baseline(source_.family));
     if (!base.problem.empty()) return fail(state, base.problem);
-    result.ratio = own.million_cells_per_second() / base.million_cells_per_second();
-    std::vector<double> of_views, of_rounds;
-    for (std::size_t v = 0; v < own.views.size(); ++v)
-      of_views.push_back(own.views[v] / base.views[v]);
-    const double cells = static_cast<double>(own.cells) / static_cast<double>(base.cells);
-    for (std::size_t r = 0; r < own.rounds.size(); ++r)
-      of_rounds.push_back(cells * base.rounds[r] / own.rounds[r]);
-    result.ratio_of_views = range_of(of_views);
-    result.ratio_of_rounds = range_of(of_rounds);
-    if (source_.family == Family::hexahedra) {
-      result.bytes_per_point = static_cast<double>(walker.bytes(*mesh_)) /
-                               static_cast<double>(mesh_->grid.points.size());
-      state.counters["bytes/point"] = result.bytes_per_point;
-      if (result.bytes_per_point > kMostGridBytesPerPoint)
-        fail(state, fmt::format("{}: {:.3f} bytes a point, at most {:.3f} are promised",
-                                source_.name, result.bytes_per_point, kMostGridBytesPerPoint));
-    }
+    const WalkerResult result = result_of(mode, own, base);
+    if (result.bytes_per_point > kMostGridBytesPerPoint)
+      return fail(state, fmt::format("{}: {:.3f} bytes a point, at most {:.3f} are promised",
+                                     source_.name, result.bytes_per_point, kMostGridBytesPerPoint));
     results.push_back(result);
     state.counters["Mcells/s"] = result.million_cells_per_second;
     state.counters["ns/cell"] = 1e3 / result.million_cells_per_second;
     state.counters["bytes/cell"] = result.bytes_per_cell;
+    if (result.bytes_per_point > 0) state.counters["bytes/point"] = result.bytes_per_point;
     state.counters["x_" + baseline(source_.family).name] = result.ratio;
     state.counters["x_walk"] = result.ratio_to_walk;
     state.counters["baseline_lost"] = static_cast<double>(lost_);
@@ -114,6 +91,32 @@ class Bench {
     auto& times = times_[mode];
     if (times.empty()) times = measure(*mesh_, views_, mode, rounds_);
     return times;
+  }
+
+  WalkerResult result_of(Mode mode, const WalkerTimes& own, const WalkerTimes& base) {
+    WalkerResult result;
+    result.family = source_.family;
+    result.mesh = source_.name;
+    result.walker = own.walker->name;
+    result.mode = mode;
+    result.mesh_cells = mesh_->cell_count;
+    const auto bytes = static_cast<double>(own.walker->bytes(*mesh_));
+    result.bytes_per_cell = bytes / static_cast<double>(result.mesh_cells);
+    if (source_.family == Family::hexahedra)
+      result.bytes_per_point = bytes / static_cast<double>(mesh_->grid.points.size());
+    const double rate = own.million_cells_per_second();
+    result.million_cells_per_second = rate;
+    result.ratio = rate / base.million_cells_per_second();
+    result.ratio_to_walk = rate / times_of(Mode::cells).front().million_cells_per_second();
+    std::vector<double> of_views, of_rounds;
+    for (std::size_t v = 0; v < own.views.size(); ++v)
+      of_views.push_back(own.views[v] / base.views[v]);
+    const double cells = static_cast<double>(own.cells) / static_cast<double>(base.cells);
+    for (std::size_t r = 0; r < own.rounds.size(); ++r)
+      of_rounds.push_back(cells * base.rounds[r] / own.rounds[r]);
+    result.ratio_of_views = range_of(of_views);
+    result.ratio_of_rounds = range_of(of_rounds);
+    return result;
   }
 
   static std::array<double, 2> range_of(const std::vector<double>& values) {
