@@ -70,8 +70,8 @@ struct MeshSource {
   std::string name;
   /// Pixels along each side of a view.
   int resolution;
-  /// Of a view's tiles, one in so many is walked: in the run that takes less than a minute (0: no
-  /// part of it), and in the one of all meshes.
+  /// Of a view's tiles, one in so many is walked: in the quick run (0: no part of it), and in the
+  /// one of all meshes.
   std::uint64_t quick_tiles, tiles;
   CellOrder order;
   /// Nothing where the file is absent: that is said on stderr, loudly.

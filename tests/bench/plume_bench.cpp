@@ -18,8 +18,8 @@ namespace {
 
 constexpr const char* kHelp = R"(plume_bench: how fast Plume is, as ratios within one run
 
-  --all          also meshes of 10 and 50 million cells: some 10 GB and a quarter of an hour;
-                 without, it takes less than a minute
+  --all          all rays, and meshes of 10 and 50 million cells: some 10 GB and twenty minutes;
+                 without, it takes some three minutes
   --rounds=N     how many times each is measured (3; with --all 5); medians are reported
   --resolution=N pixels along each side of a view, instead of what each mesh has
   --table        ends with a plain table, the thesis' numbers beside it
