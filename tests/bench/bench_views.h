@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "plume/tests/bench/bench_meshes.h"
@@ -24,6 +26,23 @@ struct BenchView {
   /// together, whether a walker takes them one by one or in packets.
   std::vector<Ray> rays;
   std::vector<Passage> passages;
+  /// Of grids: where each passage comes in if faces are two triangles.
+  std::vector<Entry> triangle_entries;
+  /// Passages left out as not all walkers have them: a twisted face at the boundary may be crossed
+  /// as a bilinear patch and not as two triangles, and is missed by the thesis' hybrid where it is
+  /// grazed.
+  std::size_t left_out = 0;
+
+  /// Where a walker comes in.
+  template <class Walker>
+  const Entry& entry(std::size_t passage) const {
+    if constexpr (std::is_same_v<Walker, PluckerGridWalker>)
+      return triangle_entries[passage];
+    else
+      return passages[passage].entry;
+  }
+  /// Takes passages out, given by their numbers in ascending order.
+  void leave_out(std::span<const std::uint32_t> passages);
 };
 
 /// Four perspective views fitted to the mesh, as the thesis has them (section 6.3.6): along +x, +y
@@ -35,8 +54,9 @@ struct BenchView {
 /// are as near to each other as in the whole picture.
 std::vector<BenchView> make_views(const BenchMesh& mesh, int resolution, std::uint64_t tiles = 1);
 
-/// One view of given rays, for tests.
-BenchView make_view(const BenchMesh& mesh, const BoundaryIndex<TetWalker>& boundary,
-                    std::string name, const std::vector<Ray>& rays);
+/// One view of given rays. For TetWalker, GridWalker and CellWalker.
+template <class Walker>
+BenchView make_view(const BenchMesh& mesh, const BoundaryIndex<Walker>& boundary, std::string name,
+                    const std::vector<Ray>& rays);
 
 }  // namespace plume::bench

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "plume/tests/bench/packet_walker.h"
-#include "plume/traverse/tet_walker.h"
+#include "plume/tests/bench/scalar_walks.h"
 
 namespace plume::bench {
 namespace {
@@ -24,42 +24,19 @@ void walk_plucker_passages(const BenchMesh& mesh, const BenchView& view, Mode mo
   });
 }
 
-// As trace() does it, without the entries.
-void walk_tets(const BenchMesh& mesh, const BenchView& view, Mode mode,
-               std::span<PassageSum> sums) {
-  with_consumer<double>(mode, [&]<class Consumer>() {
-    for (std::size_t i = 0; i < view.passages.size(); ++i) {
-      const Passage& passage = view.passages[i];
-      ShearedFrame frame;
-      frame.set(view.rays[passage.ray], mesh.tets.frame);
-      TetWalker walker(mesh.tets, frame);
-      walker.enter(mesh.tets.boundary[passage.entry.boundary], passage.entry.rank);
-      Consumer consumer(mesh.optics);
-      double t_in = frame.t(passage.entry.place.z);
-      float s_in = passage.entry.place.scalar;
-      std::uint32_t cells = 0;
-      do {
-        ++cells;
-        if constexpr (!Consumer::kMeasures) {
-          walker.decide();
-        } else {
-          const std::optional<Crossing> exit = walker.leave();
-          const double t_out = std::max(t_in, frame.t(exit->z));
-          if (!consumer.add(t_in, t_out, s_in, exit->scalar)) break;
-          t_in = t_out;
-          s_in = exit->scalar;
-        }
-      } while (walker.advance());
-      sums[i] = consumer.sum(cells);
-    }
-  });
-}
-
 std::size_t plucker_bytes(const BenchMesh& mesh) { return mesh.plucker.bytes(); }
 
 std::size_t tets_bytes(const BenchMesh& mesh) {
   return mesh.tets.cells.size() * sizeof(WalkableTets::Cell) +
          mesh.tets.points.size() * sizeof(WalkablePoint);
+}
+
+std::size_t grid_bytes(const BenchMesh& mesh) {
+  return mesh.grid.bytes() - mesh.grid.boundary.size() * sizeof(BoundaryFace);
+}
+
+std::size_t cells_bytes(const BenchMesh& mesh) {
+  return mesh.cells.bytes() - mesh.cells.boundary.size() * sizeof(BoundaryFace);
 }
 
 const std::vector<Mode> kAllModes(kModes.begin(), kModes.end());
@@ -72,22 +49,43 @@ bool BenchWalker::has(Mode mode) const {
   return std::find(modes.begin(), modes.end(), mode) != modes.end();
 }
 
-const std::vector<BenchWalker>& walkers() {
-  static const std::vector<BenchWalker> all = [] {
+const std::vector<BenchWalker>& walkers(Family family) {
+  static const std::vector<BenchWalker> of_tetrahedra = [] {
     std::vector<BenchWalker> walkers{
-        {"plucker", walk_plucker_passages<PluckerProducts::thesis>, kAllModes, false,
+        {"plucker", walk_plucker_passages<PluckerProducts::thesis>, kAllModes, Likeness::rounding,
          plucker_bytes},
-        {"tet-walker", walk_tets, kAllModes, true, tets_bytes},
-        {"plucker-fast", walk_plucker_passages<PluckerProducts::relative>, kAllModes, false,
-         plucker_bytes},
-        {"tet-packets", walk_packet_passages, kPacketModes, true, tets_bytes},
+        {"tet-walker", walk_passages<TetWalker>, kAllModes, Likeness::exact, tets_bytes},
+        {"plucker-fast", walk_plucker_passages<PluckerProducts::relative>, kAllModes,
+         Likeness::rounding, plucker_bytes},
+        {"tet-packets", walk_packet_passages, kPacketModes, Likeness::exact, tets_bytes},
     };
     if (packets_have_more_than_avx2())
       walkers.push_back(
-          {"packets-avx2", walk_packet_passages_avx2, kPacketModes, true, tets_bytes});
+          {"packets-avx2", walk_packet_passages_avx2, kPacketModes, Likeness::exact, tets_bytes});
     return walkers;
   }();
-  return all;
+  static const std::vector<BenchWalker> of_hexahedra = [] {
+    std::vector<BenchWalker> walkers{
+        {"hybrid", walk_passages<HybridGridWalker>, kAllModes, Likeness::surface, grid_bytes},
+        {"grid-walker", walk_passages<GridWalker>, kAllModes, Likeness::exact, grid_bytes},
+        {"plucker", walk_passages<PluckerGridWalker>, kAllModes, Likeness::surface, grid_bytes},
+        {"grid-packets", walk_packet_passages, kPacketModes, Likeness::exact, grid_bytes},
+    };
+    if (packets_have_more_than_avx2())
+      walkers.push_back(
+          {"packets-avx2", walk_packet_passages_avx2, kPacketModes, Likeness::exact, grid_bytes});
+    return walkers;
+  }();
+  static const std::vector<BenchWalker> of_cells{
+      {"cell-walker", walk_passages<CellWalker>, kAllModes, Likeness::exact, cells_bytes}};
+  return family == Family::tetrahedra  ? of_tetrahedra
+         : family == Family::hexahedra ? of_hexahedra
+                                       : of_cells;
+}
+
+const BenchWalker& baseline(Family family) { return walkers(family).front(); }
+const BenchWalker& reference(Family family) {
+  return family == Family::cells ? walkers(family).front() : walkers(family)[1];
 }
 
 }  // namespace plume::bench

@@ -1,6 +1,7 @@
 /// The walkers that are timed against each other.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,21 +18,29 @@ namespace plume::bench {
 using WalkPassages = void (*)(const BenchMesh& mesh, const BenchView& view, Mode mode,
                               std::span<PassageSum> sums);
 
+/// How near a walker comes to the reference.
+enum class Likeness : std::uint8_t {
+  exact,     ///< meets the same cells, all of them, on any ray; where it does not, it is told
+  rounding,  ///< the same but for rounding
+  surface,   ///< takes twisted faces for another surface: passages have the same length, or nearly
+};
+
 struct BenchWalker {
   std::string name;
   WalkPassages walk;
   std::vector<Mode> modes;
-  /// Meets the cells that TetWalker meets, all of them, on any ray. Where it does not, it is told.
-  bool exact;
+  Likeness likeness;
   /// Memory of cells and points, in its own form.
   std::size_t (*bytes)(const BenchMesh& mesh);
 
   bool has(Mode mode) const;
 };
 
-/// The baseline first, what is compared with second. To add a walker, add a line.
-const std::vector<BenchWalker>& walkers();
-inline const BenchWalker& baseline() { return walkers()[0]; }
-inline const BenchWalker& reference() { return walkers()[1]; }
+/// Those of a family. The baseline first, what is compared with second. To add a walker, add a
+/// line. Of tetrahedra, the baseline is the thesis' Plücker walker; of hexahedra, the scalar twin
+/// of its hybrid; of cells it is the reference itself, the only one there is.
+const std::vector<BenchWalker>& walkers(Family family = Family::tetrahedra);
+const BenchWalker& baseline(Family family = Family::tetrahedra);
+const BenchWalker& reference(Family family = Family::tetrahedra);
 
 }  // namespace plume::bench

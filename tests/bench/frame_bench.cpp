@@ -5,6 +5,7 @@
 #include <string>
 
 #include "plume/mesh/error.h"
+#include "plume/tests/bench/hexahedra_frames.h"
 #include "plume/tests/bench/peer_frames.h"
 #include "plume/tests/bench/thread_scaling.h"
 
@@ -14,9 +15,11 @@ constexpr const char* kHelp = R"(plume_frame_bench: whole frames, from the rays 
 
   --peers          against VTK's ray caster, with each of its integrators, on one thread
   --threads        two threads against one
-                   both where neither is asked for
-  --rounds=N       how many frames each (5 and 7); medians are reported
-  --size=N         pixels along each side (512 and 1024)
+  --hexahedra      the blunt fin as hexahedra against tetrahedra; orders 1, 2 and 3; beside the
+                   thesis' frames
+                   all where none is asked for
+  --rounds=N       how many frames each (5, with two threads 7); medians are reported
+  --size=N         pixels along each side (512, with two threads 1024)
   --pictures=DIR   writes the pictures that are compared with VTK's, as PNG files
 The blunt fin is read from the directory PLUME_DATASETS, by default ../shared/datasets.
 )";
@@ -31,7 +34,7 @@ bool take(const std::string& argument, const std::string& name, int& value) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool peers = false, threads = false;
+  bool peers = false, threads = false, hexahedra = false;
   int rounds = 0, size = 0;
   std::string pictures;
   for (int i = 1; i < argc; ++i) {
@@ -40,6 +43,8 @@ int main(int argc, char** argv) {
       peers = true;
     else if (argument == "--threads")
       threads = true;
+    else if (argument == "--hexahedra")
+      hexahedra = true;
     else if (argument.rfind("--pictures=", 0) == 0)
       pictures = argument.substr(11);
     else if (!take(argument, "--rounds=", rounds) && !take(argument, "--size=", size)) {
@@ -47,15 +52,22 @@ int main(int argc, char** argv) {
       return argument == "--help" ? 0 : 2;
     }
   }
+  if (!peers && !threads && !hexahedra) peers = threads = hexahedra = true;
   plume::bench::PeerFrameOptions peer_options;
+  plume::bench::HexahedraFrameOptions hexahedra_options;
   plume::bench::ThreadScalingOptions thread_options;
   peer_options.pictures = pictures;
-  if (rounds > 0) peer_options.rounds = thread_options.rounds = rounds;
-  if (size > 0) peer_options.size = thread_options.size = size;
+  if (rounds > 0) peer_options.rounds = thread_options.rounds = hexahedra_options.rounds = rounds;
+  if (size > 0) peer_options.size = thread_options.size = hexahedra_options.size = size;
   try {
     bool good = true;
-    if (peers || !threads) good = plume::bench::compare_peer_frames(peer_options) && good;
-    if (threads || !peers) good = plume::bench::compare_threads(thread_options) && good;
+    if (peers) good = plume::bench::compare_peer_frames(peer_options) && good;
+    if (threads) good = plume::bench::compare_threads(thread_options) && good;
+    if (hexahedra) {
+      good = plume::bench::compare_with_tetrahedra(hexahedra_options) && good;
+      good = plume::bench::compare_orders(hexahedra_options) && good;
+      plume::bench::compare_with_thesis_frames(hexahedra_options);
+    }
     return good ? 0 : 1;
   } catch (const plume::Error& error) {
     std::fprintf(stderr, "plume_frame_bench: %s\n", error.what());

@@ -4,33 +4,53 @@
 
 namespace plume::bench {
 
+std::vector<std::vector<double>> take_turns(std::span<const std::function<void()>> tasks,
+                                            int rounds) {
+  std::vector<std::vector<double>> seconds(tasks.size());
+  for (int round = 0; round < rounds; ++round)
+    for (std::size_t task = 0; task < tasks.size(); ++task) {
+      const double start = thread_seconds();
+      tasks[task]();
+      seconds[task].push_back(thread_seconds() - start);
+    }
+  return seconds;
+}
+
 std::vector<WalkerTimes> measure(const BenchMesh& mesh, const std::vector<BenchView>& views,
                                  Mode mode, int rounds) {
   std::vector<WalkerTimes> times;
-  for (const BenchWalker& walker : walkers())
+  for (const BenchWalker& walker : walkers(mesh.family))
     if (walker.has(mode))
       times.push_back(
-          {&walker, 0, std::vector<double>(static_cast<std::size_t>(rounds), 0), 0, {}});
+          {&walker, 0, std::vector<double>(static_cast<std::size_t>(rounds), 0), {}, 0, {}});
 
   for (const BenchView& view : views) {
     std::vector<PassageSum> right(view.passages.size()), sums(view.passages.size());
-    reference().walk(mesh, view, mode, right);
-    std::vector<std::vector<double>> taken(times.size());
-    for (std::size_t round = 0; round < static_cast<std::size_t>(rounds); ++round)
-      for (std::size_t w = 0; w < times.size(); ++w) {
-        WalkerTimes& one = times[w];
-        if (!one.problem.empty()) continue;
-        const double start = thread_seconds();
-        one.walker->walk(mesh, view, mode, sums);
-        taken[w].push_back(thread_seconds() - start);
-        one.rounds[round] += taken[w].back();
-        if (round > 0) continue;
-        for (const PassageSum& sum : sums) one.cells += sum.cells;
-        one.problem = problem(*one.walker, mode, compare(mesh, mode, right, sums));
-        if (!one.problem.empty()) one.problem += " (view " + view.name + ")";
+    reference(mesh.family).walk(mesh, view, mode, right);
+    std::vector<std::function<void()>> tasks;
+    std::vector<WalkerTimes*> of_task;
+    for (WalkerTimes& one : times) {
+      if (!one.problem.empty()) continue;
+      one.walker->walk(mesh, view, mode, sums);
+      std::uint64_t cells = 0;
+      for (const PassageSum& sum : sums) cells += sum.cells;
+      one.cells += cells;
+      one.problem = problem(*one.walker, mesh, mode, right, sums);
+      if (!one.problem.empty()) {
+        one.problem += " (view " + view.name + ")";
+        continue;
       }
-    for (std::size_t w = 0; w < times.size(); ++w)
-      if (times[w].problem.empty()) times[w].seconds += median(taken[w]);
+      of_task.push_back(&one);
+      one.views.push_back(1e-6 * static_cast<double>(cells));
+      tasks.emplace_back([&, walker = one.walker] { walker->walk(mesh, view, mode, sums); });
+    }
+    const auto taken = take_turns(tasks, rounds);
+    for (std::size_t task = 0; task < tasks.size(); ++task) {
+      of_task[task]->seconds += median(taken[task]);
+      of_task[task]->views.back() /= median(taken[task]);
+      for (std::size_t round = 0; round < taken[task].size(); ++round)
+        of_task[task]->rounds[round] += taken[task][round];
+    }
   }
   return times;
 }

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -9,12 +11,19 @@
 
 namespace plume::bench {
 
+/// Does the tasks in turns (A B A B ...), so that whatever slows the machine down slows all of
+/// them. Seconds of this thread's time on the processor, by task and round.
+std::vector<std::vector<double>> take_turns(std::span<const std::function<void()>> tasks,
+                                            int rounds);
+
 struct WalkerTimes {
   const BenchWalker* walker = nullptr;
   /// Cells met in all views.
   std::uint64_t cells = 0;
   /// Seconds of each round, over all views.
   std::vector<double> rounds;
+  /// By view: million cells a second, by the median of the rounds.
+  std::vector<double> views;
   /// The medians of the rounds' seconds for each view, added up.
   double seconds = 0;
   /// Not the same work as the reference's: the times mean nothing then.
@@ -23,9 +32,8 @@ struct WalkerTimes {
   double million_cells_per_second() const { return static_cast<double>(cells) / seconds * 1e-6; }
 };
 
-/// Times all walkers that have the mode. For each view, walkers take turns (A B A B ...), so that
-/// whatever slows the machine down slows all of them; time is this thread's time on the processor.
-/// What a walker came to in its first round is compared with the reference.
+/// Times all walkers of the mesh's family that have the mode, view by view, in turns. Before that,
+/// each walks once, which is compared with the reference.
 std::vector<WalkerTimes> measure(const BenchMesh& mesh, const std::vector<BenchView>& views,
                                  Mode mode, int rounds);
 

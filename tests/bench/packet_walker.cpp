@@ -3,6 +3,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "hwy/targets.h"
@@ -12,35 +13,40 @@
 namespace plume::bench {
 namespace {
 
+template <class Form>
+using StartOf = std::conditional_t<std::is_same_v<Form, WalkableTets>, TetStart, GridStart>;
+
 // Passages of one axis; a lane's start is made when it is asked for, as in a renderer.
+template <class Form>
 class PassageFeeder : public PacketFeeder {
  public:
-  PassageFeeder(const BenchMesh& mesh, const BenchView& view,
-                const std::vector<std::uint32_t>& passages)
-      : mesh_(mesh), view_(view), passages_(passages) {}
+  using Start = StartOf<Form>;
+
+  PassageFeeder(const Form& form, const BenchView& view, const std::vector<std::uint32_t>& passages)
+      : form_(form), view_(view), passages_(passages) {}
 
   const PacketStart* next(const PacketStart* finished) override {
     if (at_ == passages_.size()) return nullptr;
     const std::uint32_t index = passages_[at_++];
     const Passage& passage = view_.passages[index];
-    frame_.set(view_.rays[passage.ray], mesh_.tets.frame);
     // A lane's place is free again when its ray has finished.
-    TetStart& start = finished ? starts_[static_cast<std::size_t>(
-                                     static_cast<const TetStart*>(finished) - starts_.data())]
-                               : starts_[used_++];
-    set_start(start, mesh_.tets, frame_, mesh_.tets.boundary[passage.entry.boundary],
+    const std::size_t lane =
+        finished ? static_cast<std::size_t>(static_cast<const Start*>(finished) - starts_.data())
+                 : used_++;
+    frames_[lane].set(view_.rays[passage.ray], form_.frame);
+    set_start(starts_[lane], form_, frames_[lane], form_.boundary[passage.entry.boundary],
               passage.entry.place, passage.entry.rank, index);
-    return &start;
+    return &starts_[lane];
   }
 
  private:
-  const BenchMesh& mesh_;
+  const Form& form_;
   const BenchView& view_;
   const std::vector<std::uint32_t>& passages_;
-  std::array<TetStart, kMaxPacketLanes> starts_;
+  std::array<Start, kMaxPacketLanes> starts_;
+  std::array<ShearedFrame, kMaxPacketLanes> frames_;  // starts of grids refer to theirs
   std::size_t used_ = 0;
   std::size_t at_ = 0;
-  ShearedFrame frame_;
 };
 
 // The passages of each axis.
@@ -53,52 +59,62 @@ std::array<std::vector<std::uint32_t>, 3> by_axis(const BenchView& view) {
   return passages;
 }
 
-}  // namespace
-
-void walk_packet_passages(const BenchMesh& mesh, const BenchView& view, Mode mode,
-                          std::span<PassageSum> sums) {
+template <class Form>
+void walk_form(const Form& form, const BenchOptics& optics, const BenchView& view, Mode mode,
+               std::span<PassageSum> sums) {
   const auto passages = by_axis(view);
   // walk(axis, feeder) for the rays of each axis.
   auto for_each_axis = [&](auto&& walk) {
     for (int axis = 0; axis < 3; ++axis) {
-      PassageFeeder feeder(mesh, view, passages[static_cast<std::size_t>(axis)]);
+      PassageFeeder<Form> feeder(form, view, passages[static_cast<std::size_t>(axis)]);
       walk(axis, feeder);
     }
   };
   if (mode == Mode::cells) {
     std::vector<std::uint32_t> counts(sums.size(), 0);
     for_each_axis(
-        [&](int axis, PassageFeeder& feeder) { count_cells(mesh.tets, axis, feeder, counts); });
+        [&](int axis, PassageFeeder<Form>& feeder) { count_cells(form, axis, feeder, counts); });
     for (std::size_t i = 0; i < sums.size(); ++i) sums[i] = {counts[i], 0, 0};
   } else if (mode == Mode::integral) {
     std::vector<PacketIntegral> integrals(sums.size());
-    for_each_axis([&](int axis, PassageFeeder& feeder) {
-      integrate_scalar(mesh.tets, axis, feeder, integrals);
+    for_each_axis([&](int axis, PassageFeeder<Form>& feeder) {
+      integrate_scalar(form, axis, feeder, integrals);
     });
     for (std::size_t i = 0; i < sums.size(); ++i)
       sums[i] = {integrals[i].cells, integrals[i].length, integrals[i].integral};
   } else if (mode == Mode::isosurface) {
     std::vector<PacketHit> hits(sums.size());
-    for_each_axis([&](int axis, PassageFeeder& feeder) {
-      find_isosurface(mesh.tets, axis, mesh.optics.isovalue, feeder, hits);
+    for_each_axis([&](int axis, PassageFeeder<Form>& feeder) {
+      find_isosurface(form, axis, optics.isovalue, feeder, hits);
     });
     for (std::size_t i = 0; i < sums.size(); ++i) {
       sums[i] = {hits[i].cells, 0, 0};
       if (!std::isfinite(hits[i].distance)) continue;
       const Passage& passage = view.passages[i];
       ShearedFrame frame;
-      frame.set(view.rays[passage.ray], mesh.tets.frame);
+      frame.set(view.rays[passage.ray], form.frame);
       sums[i].first = static_cast<float>(frame.t(passage.entry.place.z)) + hits[i].distance;
     }
   } else {
     assert(mode == Mode::closed_form);
     std::vector<PacketColor> colors(sums.size());
-    for_each_axis([&](int axis, PassageFeeder& feeder) {
-      composite_packets(mesh.tets, mesh.optics.pieces, axis, 0, feeder, colors);
+    for_each_axis([&](int axis, PassageFeeder<Form>& feeder) {
+      composite_packets(form, optics.pieces, axis, 0, feeder, colors);
     });
     for (std::size_t i = 0; i < sums.size(); ++i)
       sums[i] = {colors[i].cells, colors[i].transmittance, colors[i].r + colors[i].g + colors[i].b};
   }
+}
+
+}  // namespace
+
+void walk_packet_passages(const BenchMesh& mesh, const BenchView& view, Mode mode,
+                          std::span<PassageSum> sums) {
+  assert(mesh.family != Family::cells);
+  if (mesh.family == Family::tetrahedra)
+    walk_form(mesh.tets, mesh.optics, view, mode, sums);
+  else
+    walk_form(mesh.grid, mesh.optics, view, mode, sums);
 }
 
 void walk_packet_passages_avx2(const BenchMesh& mesh, const BenchView& view, Mode mode,

@@ -12,46 +12,13 @@
 #include "plume/io/image_file.h"
 #include "plume/lib/plume.h"
 #include "plume/tests/bench/bench_meshes.h"
+#include "plume/tests/bench/frame_scenes.h"
 #include "plume/tests/bench/picture_error.h"
 #include "plume/tests/bench/timing.h"
 #include "plume/tests/bench/vtk_frames.h"
 
 namespace plume::bench {
 namespace {
-
-// Seven knots from the 1st to the 99th percentile, as one draws them by hand: VTK looks knots up
-// one by one, so that more of them would slow it down and hardly slow us.
-TransferFunction seven_knots(const Scene& scene) {
-  const float low = static_cast<float>(scene.default_color_map().colors.front().x);
-  const float high = static_cast<float>(scene.default_color_map().colors.back().x);
-  const float per_length = static_cast<float>(1.5 / scene.bounds().diagonal());
-  const plume::Optics optics[] = {{0, {0, 0, 1}},      {1, {0, 0.5f, 1}},    {0.2f, {0, 1, 0.3f}},
-                                  {2, {0.6f, 1, 0}},   {0.5f, {1, 0.7f, 0}}, {4, {1, 0.2f, 0}},
-                                  {3, {0.8f, 0, 0.4f}}};
-  TransferFunction made;
-  for (std::size_t i = 0; i < 7; ++i) {
-    made.knots.push_back({low + (high - low) * static_cast<float>(i) / 6, optics[i]});
-    made.knots.back().optics.extinction *= per_length;
-  }
-  return made;
-}
-
-struct NamedCamera {
-  std::string name;
-  Camera camera;
-};
-
-// The benchmarks' four views, and one without perspective (see VtkFrames on lengths).
-std::vector<NamedCamera> cameras(const Bounds& bounds) {
-  std::vector<NamedCamera> made;
-  for (const char* name : {"+x", "+y", "+z", "iso"}) {
-    made.push_back({name, named_view(name, bounds)});
-    orbit(made.back().camera, 3, 2);
-  }
-  made.push_back({"iso, parallel", made.back().camera});
-  made.back().camera.parallel = true;
-  return made;
-}
 
 // Who makes a picture, how long each took, and what it looks like.
 struct Maker {
@@ -84,7 +51,7 @@ class Comparison {
         scene_.cell_count(), options_.size, options_.size, options_.rounds);
     fmt::print("{:<14}{:<30}{:>9}{:>9}{:>9}{:>11}{:>11}{:>7}\n", "view", "picture by", "ms, cpu",
                "ms, wall", "x Plume", "largest", "RMS", "NaN");
-    for (const NamedCamera& view : cameras(scene_.bounds())) compare(view);
+    for (const NamedCamera& view : frame_cameras(scene_.bounds())) compare(view);
     const Sum& plume = sums_[kPlume];
     fmt::print("\nAll views:\n");
     for (const auto& [name, sum] : sums_)
