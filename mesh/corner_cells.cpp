@@ -108,6 +108,8 @@ std::uint32_t face_of_corners(const WalkableCells& mesh, const CornerCell& corne
 std::uint32_t corner_face(const WalkableCells& mesh, const CornerCell& corners, std::uint32_t cell,
                           std::uint32_t face_side) {
   if (corners.other != 0) return kNoCorners;
+  if (corners.boundary != kNoCorners && mesh.face_sides[face_side].neighbor == kNone)
+    return corners.boundary;
   for (std::uint32_t f = 0; f < 6; ++f)
     if (face_of_corners(mesh, corners, cell, f) == face_side) return f;
   return kNoCorners;
@@ -142,12 +144,16 @@ std::vector<CornerCell> make_corner_cells(const WalkableCells& mesh) {
   for_each([&](std::uint32_t c) {
     CornerCell& cell = cells[c];
     if (cell.other != 0) return;
+    std::uint32_t at_boundary = 0;
     for (std::uint32_t f = 0; f < 6; ++f) {
       const std::uint32_t side = face_of_corners(mesh, cell, c, f);
       if (side == kNone) continue;
       const auto& sides = mesh.face_sides[side];
       const std::uint32_t neighbor = sides.owner == c ? sides.neighbor : sides.owner;
-      if (neighbor == kNone) continue;
+      if (neighbor == kNone) {
+        cell.boundary = ++at_boundary == 1 ? f : kNoCorners;
+        continue;
+      }
       cell.links[f] = 8 * neighbor + corner_face(mesh, cells[neighbor], neighbor, side);
     }
   });

@@ -20,7 +20,8 @@ struct alignas(64) CornerCell {
   std::array<std::uint32_t, 6> links;
   /// 1 where the cell is something else, a polyhedron: the corners then mean nothing.
   std::uint32_t other = 0;
-  std::uint32_t unused = 0;
+  /// The face that is at the boundary; kNoCorners where none or several are.
+  std::uint32_t boundary = 7;
 };
 
 /// In place of a face's number, in a cell that is no CornerCell.

@@ -35,8 +35,16 @@ std::size_t grid_bytes(const BenchMesh& mesh) {
   return mesh.grid.bytes() - mesh.grid.boundary.size() * sizeof(BoundaryFace);
 }
 
+// What packets read, the points included.
+std::size_t corner_bytes(const BenchMesh& mesh) {
+  return mesh.cells.corner_cells.size() * sizeof(CornerCell) +
+         mesh.cells.points.size() * sizeof(WalkablePoint);
+}
+
+// What CellWalker reads.
 std::size_t cells_bytes(const BenchMesh& mesh) {
-  return mesh.cells.bytes() - mesh.cells.boundary.size() * sizeof(BoundaryFace);
+  return mesh.cells.bytes() - mesh.cells.boundary.size() * sizeof(BoundaryFace) -
+         mesh.cells.corner_cells.size() * sizeof(CornerCell);
 }
 
 const std::vector<Mode> kAllModes(kModes.begin(), kModes.end());
@@ -77,7 +85,8 @@ const std::vector<BenchWalker>& walkers(Family family) {
     return walkers;
   }();
   static const std::vector<BenchWalker> of_cells{
-      {"cell-walker", walk_passages<CellWalker>, kAllModes, Likeness::exact, cells_bytes}};
+      {"cell-walker", walk_passages<CellWalker>, kAllModes, Likeness::exact, cells_bytes},
+      {"cell-packets", walk_packet_passages, kPacketModes, Likeness::exact, corner_bytes}};
   return family == Family::tetrahedra  ? of_tetrahedra
          : family == Family::hexahedra ? of_hexahedra
                                        : of_cells;

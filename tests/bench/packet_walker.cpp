@@ -3,7 +3,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "hwy/targets.h"
@@ -14,7 +14,8 @@ namespace plume::bench {
 namespace {
 
 template <class Form>
-using StartOf = std::conditional_t<std::is_same_v<Form, WalkableTets>, TetStart, GridStart>;
+using StartOf = decltype(make_start(std::declval<Form>(), std::declval<ShearedFrame>(),
+                                    std::declval<Form>().boundary[0], {}, 0, 0));
 
 // Passages of one axis; a lane's start is made when it is asked for, as in a renderer.
 template <class Form>
@@ -110,11 +111,12 @@ void walk_form(const Form& form, const BenchOptics& optics, const BenchView& vie
 
 void walk_packet_passages(const BenchMesh& mesh, const BenchView& view, Mode mode,
                           std::span<PassageSum> sums) {
-  assert(mesh.family != Family::cells);
   if (mesh.family == Family::tetrahedra)
     walk_form(mesh.tets, mesh.optics, view, mode, sums);
-  else
+  else if (mesh.family == Family::hexahedra)
     walk_form(mesh.grid, mesh.optics, view, mode, sums);
+  else
+    walk_form(mesh.cells, mesh.optics, view, mode, sums);
 }
 
 void walk_packet_passages_avx2(const BenchMesh& mesh, const BenchView& view, Mode mode,

@@ -10,8 +10,8 @@
 namespace plume::bench {
 
 /// Walks a view's passages by packets (traverse/packets.h), with the widest instructions that
-/// are allowed. Of tetrahedra and hexahedra; not Mode::volume, whose optics are the scalar
-/// walkers'.
+/// are allowed. Cells of other kinds must have corner_cells. Not Mode::volume, whose
+/// optics are the scalar walkers'.
 void walk_packet_passages(const BenchMesh& mesh, const BenchView& view, Mode mode,
                           std::span<PassageSum> sums);
 
