@@ -33,6 +33,30 @@ class RectilinearWalker {
  public:
   using Mesh = WalkableRectilinear;
 
+  /// One axis as the ray sees it: planes, cells and points are counted along the ray.
+  struct Axis {
+    double t_next;         // where the ray crosses the plane ahead
+    double t_after;        // and the one after that
+    double t_behind;       // where it has crossed the one behind; 0 for an axis across the ray
+    double rate;           // weight per t; 0 for an axis across the ray
+    double base;           // weight of an axis across the ray, else 0
+    double origin;         // the ray's origin
+    double per_direction;  // 1 / direction; infinite for an axis across the ray
+    double speed;          // |direction|
+    const double* plane;   // the coordinate of the plane after the one ahead, or of the last
+    const double* last;
+    const double* per_width;
+    std::ptrdiff_t step;   // from a plane to the next in memory: 1 or -1
+    std::uint32_t number;  // of the mesh's axes
+    std::uint32_t planes;
+    std::uint32_t cell_step, point_step;  // modulo 2^32, as they may be negative
+    bool across;                          // the ray runs along this axis' planes
+
+    // How far between the planes behind and ahead: 0 to 1. Rounding may take it above 1, not below
+    // 0, as t is not less than t_behind.
+    double weight(double t) const { return std::min(1.0, base + (t - t_behind) * rate); }
+  };
+
   explicit RectilinearWalker(const WalkableRectilinear& mesh) : mesh_(mesh) {}
 
   /// Goes to the cell that the ray is in at t_min, or where it comes into the grid behind that.
@@ -96,31 +120,18 @@ class RectilinearWalker {
     find_exit();
   }
 
+  /// What packets take over of a walk: the axes in the order in which ties are resolved, the plane
+  /// ahead along each, and the cell's corner that is behind along all of them.
+  const std::array<Axis, 3>& axes() const { return axes_; }
+  const double* plane_ahead(const Axis& axis) const {
+    const WalkableRectilinear::Axis& given = mesh_.axes[axis.number];
+    return given.coordinates.data() + (axis.per_width - given.per_width.data()) +
+           (axis.step > 0 ? 1 : 0);
+  }
+  std::uint32_t near_corner() const { return near_; }
+
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-  // One axis as the ray sees it: planes, cells and points are counted along the ray.
-  struct Axis {
-    double t_next;         // where the ray crosses the plane ahead
-    double t_after;        // and the one after that
-    double t_behind;       // where it has crossed the one behind; 0 for an axis across the ray
-    double rate;           // weight per t; 0 for an axis across the ray
-    double base;           // weight of an axis across the ray, else 0
-    double origin;         // the ray's origin
-    double per_direction;  // 1 / direction; infinite for an axis across the ray
-    double speed;          // |direction|
-    const double* plane;   // the coordinate of the plane after the one ahead, or of the last
-    const double* last;
-    const double* per_width;
-    std::ptrdiff_t step;  // from a plane to the next in memory: 1 or -1
-    std::uint32_t planes;
-    std::uint32_t cell_step, point_step;  // modulo 2^32, as they may be negative
-    bool across;                          // the ray runs along this axis' planes
-
-    // How far between the planes behind and ahead: 0 to 1. Rounding may take it above 1, not below
-    // 0, as t is not less than t_behind.
-    double weight(double t) const { return std::min(1.0, base + (t - t_behind) * rate); }
-  };
 
   // The axes in the order in which a ray through a vertex crosses their planes: moved by +e, it
   // crosses a plane earlier by e / direction. So axes along which it goes up come first, the one
@@ -150,6 +161,7 @@ class RectilinearWalker {
     axis.per_direction = per_direction;
     axis.speed = speed;
     axis.across = speed == 0;
+    axis.number = static_cast<std::uint32_t>(a);
     axis.planes = mesh_.points(a);
     const bool forwards = up == given.ascending();
     axis.step = forwards ? 1 : -1;

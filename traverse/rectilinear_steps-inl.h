@@ -1,0 +1,295 @@
+// Steps through the cells of a rectilinear grid. Compiled once for each instruction set: to be
+// included after hwy/foreach_target.h alone.
+
+// clang-format off
+#if defined(PLUME_TRAVERSE_RECTILINEAR_STEPS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLUME_TRAVERSE_RECTILINEAR_STEPS_INL_H_
+#undef PLUME_TRAVERSE_RECTILINEAR_STEPS_INL_H_
+#else
+#define PLUME_TRAVERSE_RECTILINEAR_STEPS_INL_H_
+#endif
+// clang-format on
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "hwy/highway.h"
+#include "plume/mesh/walkable_rectilinear.h"
+#include "plume/traverse/lane_loads-inl.h"
+#include "plume/traverse/packet_walk-inl.h"
+#include "plume/traverse/rectilinear_start.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace plume {
+namespace HWY_NAMESPACE {
+
+// Half of a packet's lanes in double; all of them where a vector has one lane.
+using DD = HWY_CAPPED(double, kMaxLanes / 2);
+using DI = hn::RebindToSigned<DD>;
+using DH = hn::Rebind<float, DD>;
+using VD = hn::Vec<DD>;
+using VI = hn::Vec<DI>;
+using VH = hn::Vec<DH>;
+using MD = hn::Mask<DD>;
+constexpr std::size_t kDoubles = hn::MaxLanes(DD());
+constexpr std::size_t kParts = hn::MaxLanes(DF()) / kDoubles;
+
+// What the parts have, for all lanes.
+HWY_INLINE VF Join(const VH (&parts)[kParts]) {
+#if HWY_TARGET == HWY_SCALAR
+  return parts[0];
+#else
+  return hn::Combine(DF(), parts[1], parts[0]);
+#endif
+}
+HWY_INLINE MF Join(const MD (&parts)[kParts]) {
+#if HWY_TARGET == HWY_SCALAR
+  return MF::FromBool(parts[0].bits != 0);
+#elif HWY_TARGET <= HWY_AVX3
+  return MF{static_cast<__mmask16>(parts[1].raw << 8 | parts[0].raw)};
+#else
+  const DF d;
+  return hn::MaskFromVec(hn::ConcatEven(d, hn::BitCast(d, hn::VecFromMask(DD(), parts[1])),
+                                        hn::BitCast(d, hn::VecFromMask(DD(), parts[0]))));
+#endif
+}
+
+// RectilinearWalker's find_exit() and advance(), a ray a lane (see PacketWalk). Where a ray crosses
+// a plane is computed in double by the walker's operations in their order, so cells and places are
+// the same, bit for bit. Scalars are measured in single precision, from differences in double.
+//
+// Axes are the lanes' own: in the order in which the ray crosses their planes at a vertex.
+class RectilinearSteps {
+ public:
+  using Start = RectilinearStart;
+  static constexpr bool kInRegisters = false;
+
+  struct State : LaneState {
+    HWY_ALIGN double t_next[3][kMaxLanes];          // where the ray crosses the plane ahead
+    HWY_ALIGN double t_behind[3][kMaxLanes];        // and where it has crossed the one behind
+    HWY_ALIGN std::int64_t plane[3][kMaxLanes];     // the one ahead: bytes from the first of all
+    HWY_ALIGN std::int64_t to_plane[3][kMaxLanes];  // from it to the one after it
+    HWY_ALIGN double origin[3][kMaxLanes];
+    HWY_ALIGN double per_direction[3][kMaxLanes];
+    HWY_ALIGN double t_entry[kMaxLanes];
+    HWY_ALIGN double t_end[kMaxLanes];
+    HWY_ALIGN float rate[3][kMaxLanes];  // weight per t, and the weight of an axis across the ray
+    HWY_ALIGN float base[3][kMaxLanes];
+    HWY_ALIGN std::uint32_t to_cell[3][kMaxLanes];
+    HWY_ALIGN std::uint32_t to_point[3][kMaxLanes];
+    HWY_ALIGN std::uint32_t cell[kMaxLanes];
+    HWY_ALIGN std::uint32_t near_corner[kMaxLanes];
+  };
+
+  template <bool kMeasure>
+  using Packet = SegmentStart<kMeasure>;
+
+  explicit RectilinearSteps(const WalkableRectilinear& mesh)
+      : planes_(mesh.axes[0].coordinates.data()),
+        values_(mesh.point_values.empty() ? nullptr : mesh.point_values.data()) {}
+
+  void Put(State& state, std::size_t lane, const RectilinearStart& start) const {
+    state.put(lane, start);
+    const RectilinearWalker& walker = *start.walker;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const RectilinearWalker::Axis& axis = walker.axes()[a];
+      state.t_next[a][lane] = axis.t_next;
+      state.t_behind[a][lane] = axis.t_behind;
+      state.plane[a][lane] =
+          static_cast<std::int64_t>(AddressOf(walker.plane_ahead(axis)) - AddressOf(planes_));
+      state.to_plane[a][lane] = axis.step * static_cast<std::int64_t>(sizeof(double));
+      state.origin[a][lane] = axis.origin;
+      state.per_direction[a][lane] = axis.per_direction;
+      state.rate[a][lane] = static_cast<float>(
+          std::min(axis.rate, static_cast<double>(std::numeric_limits<float>::max())));
+      state.base[a][lane] = static_cast<float>(axis.base);
+      state.to_cell[a][lane] = axis.cell_step;
+      state.to_point[a][lane] = axis.point_step;
+    }
+    state.t_entry[lane] = walker.t_in();
+    state.t_end[lane] = walker.end();
+    state.cell[lane] = walker.cell();
+    state.near_corner[lane] = walker.near_corner();
+  }
+  // In cell 0, on the spot.
+  void PutNothing(State& state, std::size_t lane) const {
+    state.put(lane, PacketStart{});
+    for (std::size_t a = 0; a < 3; ++a) {
+      state.t_next[a][lane] = state.t_behind[a][lane] = 0;
+      state.plane[a][lane] = state.to_plane[a][lane] = 0;
+      state.origin[a][lane] = state.per_direction[a][lane] = 0;
+      state.rate[a][lane] = state.base[a][lane] = 0;
+      state.to_cell[a][lane] = state.to_point[a][lane] = 0;
+    }
+    state.t_entry[lane] = 0;
+    state.t_end[lane] = std::numeric_limits<double>::infinity();
+    state.cell[lane] = state.near_corner[lane] = 0;
+  }
+
+  template <bool kMeasure>
+  HWY_INLINE VU Cells(const State& state, const Packet<kMeasure>&) const {
+    return hn::Load(DU(), state.cell);
+  }
+
+  HWY_INLINE void Prefetch(const State&) const {}
+
+  template <bool kMeasure>
+  HWY_INLINE StepResult Step(State& state, Packet<kMeasure>&) const {
+    if (kMeasure && values_ != nullptr) return StepTo<kMeasure, true>(state);
+    return StepTo<kMeasure, false>(state);
+  }
+
+ private:
+  // Whether the plane ahead along the second axis is crossed before that along the first, and that
+  // along the third before both.
+  template <class M>
+  struct Exit {
+    M second_first, third;
+
+    // What the axis of the exit has; what the first of the other two has, and the last of them.
+    template <class V>
+    HWY_INLINE V Of(const V (&axes)[3]) const {
+      return hn::IfThenElse(third, axes[2], hn::IfThenElse(second_first, axes[1], axes[0]));
+    }
+    template <class V>
+    HWY_INLINE V FirstBesides(const V (&axes)[3]) const {
+      return hn::IfThenElse(hn::Or(second_first, third), axes[0], axes[1]);
+    }
+    template <class V>
+    HWY_INLINE V LastBesides(const V (&axes)[3]) const {
+      return hn::IfThenElse(third, axes[1], axes[2]);
+    }
+  };
+
+  template <class D, class T>
+  static HWY_INLINE void LoadAxes(D d, const T (&from)[3][kMaxLanes], std::size_t lane,
+                                  hn::Vec<D> (&axes)[3]) {
+    for (std::size_t a = 0; a < 3; ++a) axes[a] = hn::Load(d, from[a] + lane);
+  }
+
+  // Puts what is new along the axis of the exit in the place of what was there.
+  template <class D, class M, class T>
+  static HWY_INLINE void StoreExit(D d, const Exit<M>& exit, const hn::Vec<D> (&axes)[3],
+                                   hn::Vec<D> with, std::size_t lane, T (&to)[3][kMaxLanes]) {
+    auto third = exit.third, second_first = exit.second_first;
+    hn::Store(hn::IfThenElse(hn::Or(second_first, third), axes[0], with), d, to[0] + lane);
+    hn::Store(hn::IfThenElse(hn::AndNot(third, second_first), with, axes[1]), d, to[1] + lane);
+    hn::Store(hn::IfThenElse(third, with, axes[2]), d, to[2] + lane);
+  }
+
+  template <bool kMeasure, bool kValues>
+  HWY_INLINE StepResult StepTo(State& state) const {
+    const DF d;
+    const DU du;
+    const DD dd;
+    const DI di;
+    const DH dh;
+    MD second_first[kParts], third[kParts], left[kParts];
+    VH z[kParts], since_first[kParts], since_last[kParts], width[kParts];
+    for (std::size_t part = 0; part < kParts; ++part) {
+      const std::size_t lane = part * kDoubles;
+      VD t_next[3];
+      LoadAxes(dd, state.t_next, lane, t_next);
+      Exit<MD> exit;
+      exit.second_first = hn::Lt(t_next[1], t_next[0]);
+      exit.third = hn::Lt(t_next[2], hn::IfThenElse(exit.second_first, t_next[1], t_next[0]));
+      const VD t_out = exit.Of(t_next);
+      left[part] = hn::Ge(t_out, hn::Load(dd, state.t_end + lane));
+      second_first[part] = exit.second_first;
+      third[part] = exit.third;
+
+      // Behind an axis' last plane there is none; the ray has left by then.
+      VI planes[3], to_plane[3];
+      LoadAxes(di, state.plane, lane, planes);
+      LoadAxes(di, state.to_plane, lane, to_plane);
+      const Exit<hn::Mask<DI>> which{hn::RebindMask(di, exit.second_first),
+                                     hn::RebindMask(di, exit.third)};
+      const VI plane = hn::Add(
+          which.Of(planes), hn::IfThenZeroElse(hn::RebindMask(di, left[part]), which.Of(to_plane)));
+      StoreExit(di, which, planes, plane, lane, state.plane);
+      VD origin[3], per_direction[3];
+      LoadAxes(dd, state.origin, lane, origin);
+      LoadAxes(dd, state.per_direction, lane, per_direction);
+      const VD distance = hn::Sub(hn::GatherOffset(dd, planes_, plane), exit.Of(origin));
+      const VD t_after = hn::Mul(distance, exit.Of(per_direction));
+      StoreExit(dd, exit, t_next, t_after, lane, state.t_next);
+      if constexpr (kMeasure)
+        z[part] = hn::DemoteTo(dh, hn::Sub(t_out, hn::Load(dd, state.t_entry + lane)));
+      if constexpr (kValues) {
+        VD t_behind[3];
+        LoadAxes(dd, state.t_behind, lane, t_behind);
+        since_first[part] = hn::DemoteTo(dh, hn::Sub(t_out, exit.FirstBesides(t_behind)));
+        since_last[part] = hn::DemoteTo(dh, hn::Sub(t_out, exit.LastBesides(t_behind)));
+        width[part] = hn::DemoteTo(dh, hn::Sub(t_after, t_out));
+        StoreExit(dd, exit, t_behind, t_out, lane, state.t_behind);
+      }
+    }
+
+    const Exit<MF> exit{Join(second_first), Join(third)};
+    const Exit<hn::Mask<DU>> which{hn::RebindMask(du, exit.second_first),
+                                   hn::RebindMask(du, exit.third)};
+    VU steps[3];
+    LoadAxes(du, state.to_cell, 0, steps);
+    hn::Store(hn::Add(hn::Load(du, state.cell), which.Of(steps)), du, state.cell);
+    StepResult result;
+    result.left = Join(left);
+    if constexpr (kMeasure) {
+      result.z = Join(z);
+      result.s = hn::Zero(d);
+    }
+    if constexpr (kValues) {
+      LoadAxes(du, state.to_point, 0, steps);
+      const VU corner = hn::Add(hn::Load(du, state.near_corner), which.Of(steps));
+      hn::Store(corner, du, state.near_corner);
+      VF rate[3], base[3];
+      LoadAxes(d, state.rate, 0, rate);
+      LoadAxes(d, state.base, 0, base);
+      const VF one = hn::Set(d, 1);
+      const VF along_first = hn::Min(
+          one, hn::MulAdd(Join(since_first), exit.FirstBesides(rate), exit.FirstBesides(base)));
+      const VF along_last = hn::Min(
+          one, hn::MulAdd(Join(since_last), exit.LastBesides(rate), exit.LastBesides(base)));
+      result.s = FaceScalar(corner, which.FirstBesides(steps), which.LastBesides(steps),
+                            along_first, along_last);
+      const VF least = hn::Set(d, std::numeric_limits<float>::min());
+      StoreExit(d, exit, rate, hn::Div(one, hn::Max(Join(width), least)), 0, state.rate);
+    }
+    return result;
+  }
+
+  // Bilinear in the face's four values, as RectilinearWalker's face_value().
+  HWY_INLINE VF FaceScalar(VU corner, VU u, VU v, VF along_u, VF along_v) const {
+    const DF d;
+    auto value = [&](VU point) {
+      return hn::GatherIndex(d, values_, hn::BitCast(hn::RebindToSigned<DU>(), point));
+    };
+    const VU across = hn::Add(corner, v);
+    const VF s00 = value(corner), s10 = value(hn::Add(corner, u));
+    const VF s01 = value(across), s11 = value(hn::Add(across, u));
+    const VF s0 = hn::MulAdd(along_u, hn::Sub(s10, s00), s00);
+    const VF s1 = hn::MulAdd(along_u, hn::Sub(s11, s01), s01);
+    return hn::MulAdd(along_v, hn::Sub(s1, s0), s0);
+  }
+
+  static std::uintptr_t AddressOf(const double* plane) {
+    return reinterpret_cast<std::uintptr_t>(plane);
+  }
+
+  const double* planes_;  // the first axis'; offsets lead from it to those of all axes
+  const float* values_;   // of points, or null
+};
+
+// Walks all rays of `feeder`. Requires walked_by_packets(mesh).
+template <class Consumer>
+void Walk(const WalkableRectilinear& mesh, Consumer& consumer, PacketFeeder& feeder) {
+  PacketWalk<RectilinearSteps, kPackets, false, Consumer>(RectilinearSteps(mesh), consumer, feeder)
+      .run();
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace plume
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard
