@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -13,6 +14,8 @@
 #include "plume/mesh/rectilinear_axes.h"
 #include "plume/mesh/validate.h"
 #include "plume/tests/bench/timing.h"
+#include "plume/traverse/packets.h"
+#include "plume/traverse/rectilinear_start.h"
 #include "plume/traverse/trace_rectilinear.h"
 
 namespace plume::bench {
@@ -47,13 +50,29 @@ struct Input {
       for (double& x : ray.direction) x /= std::sqrt(length);
       ray.t_min = -std::numeric_limits<double>::infinity();
       rays.push_back(ray);
+      add_passage(ray);
     }
   }
+
+  // Where hexahedra are entered is found beforehand; the box is convex.
+  void add_passage(const Ray& ray) {
+    ShearedFrame frame;
+    frame.set(ray, hexahedra->mesh.frame);
+    const GridWalker walker(hexahedra->mesh, frame);
+    if (const auto entry = Entries<GridWalker>().first(hexahedra->boundary, walker, frame))
+      passages[static_cast<std::size_t>(frame.axis())].push_back({ray, *entry});
+  }
+
+  struct Passage {
+    Ray ray;
+    Entry entry;
+  };
 
   int size;
   std::unique_ptr<Form<RectilinearWalker>> regular;
   std::unique_ptr<Form<GridWalker>> hexahedra;
   std::vector<Ray> rays;
+  std::array<std::vector<Passage>, 3> passages;  // by the rays' longest axis
 };
 
 // The one that is in memory: benchmarks run in the order in which they are registered.
@@ -133,6 +152,117 @@ void run(benchmark::State& state, int size, ScalarOrder order) {
                      median(ratios), kLeastRegularRatio));
 }
 
+// Starts are made when a lane asks for one, as in a renderer.
+class RegularFeeder : public PacketFeeder {
+ public:
+  explicit RegularFeeder(const Input& input)
+      : input_(input), walkers_(kMaxPacketLanes, RectilinearWalker(input.regular->mesh)) {}
+
+  const PacketStart* next(const PacketStart* finished) override {
+    const std::size_t lane =
+        finished ? static_cast<std::size_t>(static_cast<const RectilinearStart*>(finished) -
+                                            starts_.data())
+                 : used_++;
+    while (at_ < input_.rays.size()) {
+      const std::size_t ray = at_++;
+      if (set_start(starts_[lane], walkers_[lane], input_.regular->mesh, input_.rays[ray],
+                    static_cast<std::uint32_t>(ray)) == RectilinearRay::ready)
+        return &starts_[lane];
+    }
+    return nullptr;
+  }
+
+ private:
+  const Input& input_;
+  std::vector<RectilinearWalker> walkers_;
+  std::array<RectilinearStart, kMaxPacketLanes> starts_;
+  std::size_t used_ = 0, at_ = 0;
+};
+
+class HexahedraFeeder : public PacketFeeder {
+ public:
+  HexahedraFeeder(const WalkableGrid& mesh, const std::vector<Input::Passage>& passages)
+      : mesh_(mesh), passages_(passages) {}
+
+  const PacketStart* next(const PacketStart* finished) override {
+    if (at_ == passages_.size()) return nullptr;
+    const std::size_t lane =
+        finished
+            ? static_cast<std::size_t>(static_cast<const GridStart*>(finished) - starts_.data())
+            : used_++;
+    const Input::Passage& passage = passages_[at_];
+    frames_[lane].set(passage.ray, mesh_.frame);
+    set_start(starts_[lane], mesh_, frames_[lane], mesh_.boundary[passage.entry.boundary],
+              passage.entry.place, passage.entry.rank, static_cast<std::uint32_t>(at_++));
+    return &starts_[lane];
+  }
+
+ private:
+  const WalkableGrid& mesh_;
+  const std::vector<Input::Passage>& passages_;
+  std::array<GridStart, kMaxPacketLanes> starts_;
+  std::array<ShearedFrame, kMaxPacketLanes> frames_;  // starts refer to them
+  std::size_t used_ = 0, at_ = 0;
+};
+
+enum class Sum { cells, integral };
+
+// `packets(add)` calls add() for each feeder, with the mesh that its rays go through.
+template <class Packets>
+Walk walk_packets(std::size_t rays, Sum sum, const Packets& packets) {
+  std::vector<std::uint32_t> counts(rays, 0);
+  std::vector<PacketIntegral> integrals(rays);
+  Walk result;
+  const double start = thread_seconds();
+  if (sum == Sum::cells)
+    packets([&](auto&&... to_walk) { count_cells(to_walk..., counts); });
+  else
+    packets([&](auto&&... to_walk) { integrate_scalar(to_walk..., integrals); });
+  result.seconds = thread_seconds() - start;
+  for (std::size_t i = 0; i < rays; ++i) {
+    result.cells += counts[i] + integrals[i].cells;
+    result.length += integrals[i].length;
+    result.sum += 2 * integrals[i].integral;  // as walk() adds up
+  }
+  return result;
+}
+
+void run_packets(benchmark::State& state, int size, Sum sum) {
+  const Input& input = input_of(size);
+  std::vector<double> ours, theirs, ratios;
+  for (auto unused : state) {
+    (void)unused;
+    const Walk as_hexahedra = walk_packets(input.rays.size(), sum, [&](const auto& add) {
+      for (int axis = 0; axis < 3; ++axis) {
+        HexahedraFeeder feeder(input.hexahedra->mesh,
+                               input.passages[static_cast<std::size_t>(axis)]);
+        add(input.hexahedra->mesh, axis, feeder);
+      }
+    });
+    const Walk as_such = walk_packets(input.rays.size(), sum, [&](const auto& add) {
+      RegularFeeder feeder(input);
+      add(input.regular->mesh, feeder);
+    });
+    state.SetIterationTime(as_such.seconds);
+    ours.push_back(as_such.rate());
+    theirs.push_back(as_hexahedra.rate());
+    ratios.push_back(as_such.rate() / as_hexahedra.rate());
+    auto differ = [](double a, double b) { return !(std::abs(a - b) <= 1e-5 * std::abs(b)); };
+    if (differ(as_such.length, as_hexahedra.length) || differ(as_such.sum, as_hexahedra.sum) ||
+        differ(as_such.cells, as_hexahedra.cells)) {
+      fail(state, "packets saw not what those of hexahedra did");
+      return;
+    }
+  }
+  state.counters["Mcells/s"] = median(ours);
+  state.counters["hexahedra_Mcells/s"] = median(theirs);
+  state.counters["ratio"] = median(ratios);
+  if (median(ratios) < kLeastRegularRatio)
+    fail(state,
+         fmt::format("packets at {:.2f} times the rate of hexahedra's, at least {} are promised",
+                     median(ratios), kLeastRegularRatio));
+}
+
 }  // namespace
 
 void register_regular_benchmarks(int rounds) {
@@ -147,6 +277,19 @@ void register_regular_benchmarks(int rounds) {
       benchmark::RegisterBenchmark(
           fmt::format("walk/regular/{}/{}", size, named.name).c_str(),
           [size, named](benchmark::State& state) { run(state, size, named.order); })
+          ->UseManualTime()
+          ->Iterations(rounds)
+          ->Unit(benchmark::kMillisecond);
+  struct NamedSum {
+    Sum sum;
+    const char* name;
+  };
+  for (const int size : {64, 192})
+    for (const NamedSum& named :
+         {NamedSum{Sum::cells, "cells"}, NamedSum{Sum::integral, "integral"}})
+      benchmark::RegisterBenchmark(
+          fmt::format("walk/regular/{}/packets/{}", size, named.name).c_str(),
+          [size, named](benchmark::State& state) { run_packets(state, size, named.sum); })
           ->UseManualTime()
           ->Iterations(rounds)
           ->Unit(benchmark::kMillisecond);
