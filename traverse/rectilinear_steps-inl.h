@@ -56,6 +56,23 @@ HWY_INLINE MF Join(const MD (&parts)[kParts]) {
 #endif
 }
 
+#if 0 // TOGGLE
+// A lane's number into its place, by a load that blends itself in.
+HWY_INLINE VF Gather(const float* HWY_RESTRICT from, VU numbers) {
+  HWY_ALIGN std::uint32_t number[kMaxLanes];
+  hn::Store(numbers, DU(), number);
+  __m512 lanes = _mm512_castps128_ps512(_mm_load_ss(from + number[0]));
+  for (unsigned lane = 1; lane < kMaxLanes; ++lane)
+    lanes = _mm512_mask_mov_ps(lanes, static_cast<__mmask16>(1u << lane),
+                               _mm512_set1_ps(from[number[lane]]));
+  return VF{lanes};
+}
+#else
+HWY_INLINE VF Gather(const float* HWY_RESTRICT from, VU numbers) {
+  return hn::GatherIndex(DF(), from, hn::BitCast(hn::RebindToSigned<DU>(), numbers));
+}
+#endif
+
 // RectilinearWalker's find_exit() and advance(), a ray a lane (see PacketWalk). Where a ray crosses
 // a plane is computed in double by the walker's operations in their order, so cells and places are
 // the same, bit for bit. Scalars are measured in single precision, from differences in double.
@@ -261,10 +278,7 @@ class RectilinearSteps {
 
   // Bilinear in the face's four values, as RectilinearWalker's face_value().
   HWY_INLINE VF FaceScalar(VU corner, VU u, VU v, VF along_u, VF along_v) const {
-    const DF d;
-    auto value = [&](VU point) {
-      return hn::GatherIndex(d, values_, hn::BitCast(hn::RebindToSigned<DU>(), point));
-    };
+    auto value = [&](VU point) { return Gather(values_, point); };
     const VU across = hn::Add(corner, v);
     const VF s00 = value(corner), s10 = value(hn::Add(corner, u));
     const VF s01 = value(across), s11 = value(hn::Add(across, u));

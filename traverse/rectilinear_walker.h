@@ -187,14 +187,47 @@ class RectilinearWalker {
     return distance * axis.per_direction;
   }
 
+  // The last plane that is crossed at `begin` or before; not the last of all. It is looked for from
+  // where it would be if all widths were the same, in steps that double, then in halves.
+  static std::uint32_t last_crossed(const Axis& axis, double begin) {
+    std::uint32_t crossed = 0, open = axis.planes - 1;
+    auto is_crossed = [&](std::uint32_t i) { return t_of(axis, i) <= begin; };
+    const double first = axis.across ? *axis.plane : t_of(axis, 0);
+    const double last = axis.across ? *axis.last : t_of(axis, open);
+    const double place = ((axis.across ? axis.origin : begin) - first) / (last - first) * open;
+    // Whatever rounding made of it, no number included.
+    const std::uint32_t guess =
+        place < open ? (place > 0 ? static_cast<std::uint32_t>(place) : 0) : open - 1;
+    if (is_crossed(guess)) {
+      crossed = guess;
+      for (std::uint32_t step = 1; step < open - crossed; step *= 2) {
+        if (!is_crossed(crossed + step)) {
+          open = crossed + step;
+          break;
+        }
+        crossed += step;
+      }
+    } else {
+      open = guess;
+      for (std::uint32_t step = 1; step < open - crossed; step *= 2) {
+        if (is_crossed(open - step)) {
+          crossed = open - step;
+          break;
+        }
+        open -= step;
+      }
+    }
+    while (open - crossed > 1) {
+      const std::uint32_t middle = crossed + (open - crossed) / 2;
+      (is_crossed(middle) ? crossed : open) = middle;
+    }
+    return crossed;
+  }
+
   // Puts the axis between the last plane that is crossed at `begin` or before and the next one.
   // There are both: the first plane is crossed by then and the last one is not.
   void place(Axis& axis, double begin) {
-    std::uint32_t crossed = 0, open = axis.planes - 1;
-    while (open - crossed > 1) {
-      const std::uint32_t middle = crossed + (open - crossed) / 2;
-      (t_of(axis, middle) <= begin ? crossed : open) = middle;
-    }
+    const std::uint32_t crossed = last_crossed(axis, begin), open = crossed + 1;
     axis.t_behind = axis.across ? 0 : t_of(axis, crossed);
     axis.t_next = t_of(axis, open);
     const std::ptrdiff_t cells = static_cast<std::ptrdiff_t>(crossed) * axis.step;
