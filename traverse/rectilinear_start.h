@@ -1,7 +1,9 @@
 /// A ray through a rectilinear grid, ready to be walked by packets.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <vector>
 
 #include "plume/traverse/packet_start.h"
 #include "plume/traverse/rectilinear_walker.h"
@@ -40,5 +42,37 @@ inline RectilinearRay set_start(RectilinearStart& start, RectilinearWalker& walk
   start.ray = number;
   return RectilinearRay::ready;
 }
+
+/// Room for the rays that packets hold at a time, each set up when its lane asks for it. For one
+/// feeder; the mesh must outlive it.
+class RectilinearLanes {
+ public:
+  explicit RectilinearLanes(const WalkableRectilinear& mesh)
+      : mesh_(mesh), starts_(kMaxPacketLanes) {
+    walkers_.reserve(kMaxPacketLanes);
+    while (walkers_.size() < kMaxPacketLanes) walkers_.emplace_back(mesh);
+  }
+  RectilinearLanes(const RectilinearLanes&) = delete;
+  RectilinearLanes& operator=(const RectilinearLanes&) = delete;
+
+  /// All places are free again.
+  void clear() { used_ = 0; }
+  /// The place of the lane that asks: where what it has finished was, another where that is null.
+  std::size_t place(const PacketStart* finished) {
+    if (finished == nullptr) return used_++;
+    return static_cast<std::size_t>(static_cast<const RectilinearStart*>(finished) -
+                                    starts_.data());
+  }
+  RectilinearRay set(std::size_t place, const Ray& ray, std::uint32_t number) {
+    return set_start(starts_[place], walkers_[place], mesh_, ray, number);
+  }
+  const RectilinearStart* start(std::size_t place) const { return &starts_[place]; }
+
+ private:
+  const WalkableRectilinear& mesh_;
+  std::vector<RectilinearWalker> walkers_;
+  std::vector<RectilinearStart> starts_;  // refer to the walkers
+  std::size_t used_ = 0;
+};
 
 }  // namespace plume

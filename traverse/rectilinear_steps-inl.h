@@ -56,28 +56,14 @@ HWY_INLINE MF Join(const MD (&parts)[kParts]) {
 #endif
 }
 
-#if 0 // TOGGLE
-// A lane's number into its place, by a load that blends itself in.
-HWY_INLINE VF Gather(const float* HWY_RESTRICT from, VU numbers) {
-  HWY_ALIGN std::uint32_t number[kMaxLanes];
-  hn::Store(numbers, DU(), number);
-  __m512 lanes = _mm512_castps128_ps512(_mm_load_ss(from + number[0]));
-  for (unsigned lane = 1; lane < kMaxLanes; ++lane)
-    lanes = _mm512_mask_mov_ps(lanes, static_cast<__mmask16>(1u << lane),
-                               _mm512_set1_ps(from[number[lane]]));
-  return VF{lanes};
-}
-#else
-HWY_INLINE VF Gather(const float* HWY_RESTRICT from, VU numbers) {
-  return hn::GatherIndex(DF(), from, hn::BitCast(hn::RebindToSigned<DU>(), numbers));
-}
-#endif
-
 // RectilinearWalker's find_exit() and advance(), a ray a lane (see PacketWalk). Where a ray crosses
 // a plane is computed in double by the walker's operations in their order, so cells and places are
 // the same, bit for bit. Scalars are measured in single precision, from differences in double.
 //
 // Axes are the lanes' own: in the order in which the ray crosses their planes at a vertex.
+//
+// With kAhead, for grids larger than the caches, points of the next cell are asked for.
+template <bool kAhead>
 class RectilinearSteps {
  public:
   using Start = RectilinearStart;
@@ -98,6 +84,9 @@ class RectilinearSteps {
     HWY_ALIGN std::uint32_t to_point[3][kMaxLanes];
     HWY_ALIGN std::uint32_t cell[kMaxLanes];
     HWY_ALIGN std::uint32_t near_corner[kMaxLanes];
+    // Points that the next cell has and this one has not, by the axis along which it lies.
+    HWY_ALIGN std::uint32_t to_ahead[2][3][kMaxLanes];
+    HWY_ALIGN std::uint32_t ahead[2][kMaxLanes];
   };
 
   template <bool kMeasure>
@@ -124,6 +113,7 @@ class RectilinearSteps {
       state.base[a][lane] = static_cast<float>(axis.base);
       state.to_cell[a][lane] = axis.cell_step;
       state.to_point[a][lane] = axis.point_step;
+      if constexpr (kAhead) PutAhead(state, lane, walker, a);
     }
     state.t_entry[lane] = walker.t_in();
     state.t_end[lane] = walker.end();
@@ -139,6 +129,7 @@ class RectilinearSteps {
       state.origin[a][lane] = state.per_direction[a][lane] = 0;
       state.rate[a][lane] = state.base[a][lane] = 0;
       state.to_cell[a][lane] = state.to_point[a][lane] = 0;
+      state.to_ahead[0][a][lane] = state.to_ahead[1][a][lane] = 0;
     }
     state.t_entry[lane] = 0;
     state.t_end[lane] = std::numeric_limits<double>::infinity();
@@ -150,7 +141,13 @@ class RectilinearSteps {
     return hn::Load(DU(), state.cell);
   }
 
-  HWY_INLINE void Prefetch(const State&) const {}
+  // Lanes that have left ask for what nobody needs.
+  HWY_INLINE void Prefetch(const State& state) const {
+    if (values_ == nullptr) return;
+    for (const auto& points : state.ahead)
+      for (std::size_t lane = 0; lane < hn::Lanes(DF()); ++lane)
+        hwy::Prefetch(values_ + points[lane]);
+  }
 
   template <bool kMeasure>
   HWY_INLINE StepResult Step(State& state, Packet<kMeasure>&) const {
@@ -260,6 +257,12 @@ class RectilinearSteps {
       LoadAxes(du, state.to_point, 0, steps);
       const VU corner = hn::Add(hn::Load(du, state.near_corner), which.Of(steps));
       hn::Store(corner, du, state.near_corner);
+      if constexpr (kAhead)
+        for (std::size_t i = 0; i < 2; ++i) {
+          VU to_ahead[3];
+          LoadAxes(du, state.to_ahead[i], 0, to_ahead);
+          hn::Store(hn::Add(corner, which.Of(to_ahead)), du, state.ahead[i]);
+        }
       VF rate[3], base[3];
       LoadAxes(d, state.rate, 0, rate);
       LoadAxes(d, state.base, 0, base);
@@ -278,13 +281,29 @@ class RectilinearSteps {
 
   // Bilinear in the face's four values, as RectilinearWalker's face_value().
   HWY_INLINE VF FaceScalar(VU corner, VU u, VU v, VF along_u, VF along_v) const {
-    auto value = [&](VU point) { return Gather(values_, point); };
+    const DF d;
+    auto value = [&](VU point) {
+      return hn::GatherIndex(d, values_, hn::BitCast(hn::RebindToSigned<DU>(), point));
+    };
     const VU across = hn::Add(corner, v);
     const VF s00 = value(corner), s10 = value(hn::Add(corner, u));
     const VF s01 = value(across), s11 = value(hn::Add(across, u));
     const VF s0 = hn::MulAdd(along_u, hn::Sub(s10, s00), s00);
     const VF s1 = hn::MulAdd(along_u, hn::Sub(s11, s01), s01);
     return hn::MulAdd(along_v, hn::Sub(s1, s0), s0);
+  }
+
+  // Values lie in rows along x, and a line of the cache has 16 of them. Along another axis the next
+  // cell has two rows that this one has not; along x, it may have the next line of four.
+  static HWY_INLINE void PutAhead(State& state, std::size_t lane, const RectilinearWalker& walker,
+                                  std::size_t a) {
+    const RectilinearWalker::Axis& axis = walker.axes()[a];
+    std::uint32_t step = axis.point_step, across = 0;
+    for (const RectilinearWalker::Axis& other : walker.axes())
+      if (other.number != 0 && other.number != axis.number) across = other.point_step;
+    if (axis.number == 0) step *= 8;
+    state.to_ahead[0][a][lane] = step;
+    state.to_ahead[1][a][lane] = step + across;
   }
 
   static std::uintptr_t AddressOf(const double* plane) {
@@ -298,8 +317,16 @@ class RectilinearSteps {
 // Walks all rays of `feeder`. Requires walked_by_packets(mesh).
 template <class Consumer>
 void Walk(const WalkableRectilinear& mesh, Consumer& consumer, PacketFeeder& feeder) {
-  PacketWalk<RectilinearSteps, kPackets, false, Consumer>(RectilinearSteps(mesh), consumer, feeder)
-      .run();
+  constexpr std::size_t kLargeMesh = 500000;  // values
+  auto walk = [&]<bool kAhead>() {
+    const RectilinearSteps<kAhead> steps(mesh);
+    PacketWalk<RectilinearSteps<kAhead>, kAhead ? kMaxPackets : kPackets, kAhead, Consumer>(
+        steps, consumer, feeder)
+        .run();
+  };
+  if constexpr (Consumer::kMeasure)
+    if (mesh.point_values.size() >= kLargeMesh) return walk.template operator()<true>();
+  walk.template operator()<false>();
 }
 
 }  // namespace HWY_NAMESPACE

@@ -155,28 +155,23 @@ void run(benchmark::State& state, int size, ScalarOrder order) {
 // Starts are made when a lane asks for one, as in a renderer.
 class RegularFeeder : public PacketFeeder {
  public:
-  explicit RegularFeeder(const Input& input)
-      : input_(input), walkers_(kMaxPacketLanes, RectilinearWalker(input.regular->mesh)) {}
+  explicit RegularFeeder(const Input& input) : input_(input), lanes_(input.regular->mesh) {}
 
   const PacketStart* next(const PacketStart* finished) override {
-    const std::size_t lane =
-        finished ? static_cast<std::size_t>(static_cast<const RectilinearStart*>(finished) -
-                                            starts_.data())
-                 : used_++;
+    const std::size_t place = lanes_.place(finished);
     while (at_ < input_.rays.size()) {
       const std::size_t ray = at_++;
-      if (set_start(starts_[lane], walkers_[lane], input_.regular->mesh, input_.rays[ray],
-                    static_cast<std::uint32_t>(ray)) == RectilinearRay::ready)
-        return &starts_[lane];
+      if (lanes_.set(place, input_.rays[ray], static_cast<std::uint32_t>(ray)) ==
+          RectilinearRay::ready)
+        return lanes_.start(place);
     }
     return nullptr;
   }
 
  private:
   const Input& input_;
-  std::vector<RectilinearWalker> walkers_;
-  std::array<RectilinearStart, kMaxPacketLanes> starts_;
-  std::size_t used_ = 0, at_ = 0;
+  RectilinearLanes lanes_;
+  std::size_t at_ = 0;
 };
 
 class HexahedraFeeder : public PacketFeeder {
