@@ -195,9 +195,9 @@ class RectilinearWalker {
     const double first = axis.across ? *axis.plane : t_of(axis, 0);
     const double last = axis.across ? *axis.last : t_of(axis, open);
     const double place = ((axis.across ? axis.origin : begin) - first) / (last - first) * open;
-    // Whatever rounding made of it, no number included.
-    const std::uint32_t guess =
-        place < open ? (place > 0 ? static_cast<std::uint32_t>(place) : 0) : open - 1;
+    // Whatever rounding made of it: no number becomes 0.
+    const auto guess = static_cast<std::uint32_t>(std::min(open - 1.0, std::max(0.0, place)));
+    if (is_crossed(guess) & !is_crossed(guess + 1)) return guess;  // at once, as a rule
     if (is_crossed(guess)) {
       crossed = guess;
       for (std::uint32_t step = 1; step < open - crossed; step *= 2) {
