@@ -13,9 +13,9 @@
 #include "plume/datasets/generate.h"
 #include "plume/mesh/rectilinear_axes.h"
 #include "plume/mesh/validate.h"
+#include "plume/tests/bench/regular_feeders.h"
 #include "plume/tests/bench/timing.h"
 #include "plume/traverse/packets.h"
-#include "plume/traverse/rectilinear_start.h"
 #include "plume/traverse/trace_rectilinear.h"
 
 namespace plume::bench {
@@ -50,29 +50,15 @@ struct Input {
       for (double& x : ray.direction) x /= std::sqrt(length);
       ray.t_min = -std::numeric_limits<double>::infinity();
       rays.push_back(ray);
-      add_passage(ray);
+      rays_of_axis[static_cast<std::size_t>(longest_axis(ray.direction))].push_back(ray);
     }
   }
-
-  // Where hexahedra are entered is found beforehand; the box is convex.
-  void add_passage(const Ray& ray) {
-    ShearedFrame frame;
-    frame.set(ray, hexahedra->mesh.frame);
-    const GridWalker walker(hexahedra->mesh, frame);
-    if (const auto entry = Entries<GridWalker>().first(hexahedra->boundary, walker, frame))
-      passages[static_cast<std::size_t>(frame.axis())].push_back({ray, *entry});
-  }
-
-  struct Passage {
-    Ray ray;
-    Entry entry;
-  };
 
   int size;
   std::unique_ptr<Form<RectilinearWalker>> regular;
   std::unique_ptr<Form<GridWalker>> hexahedra;
   std::vector<Ray> rays;
-  std::array<std::vector<Passage>, 3> passages;  // by the rays' longest axis
+  std::array<std::vector<Ray>, 3> rays_of_axis;  // the same by their longest axis
 };
 
 // The one that is in memory: benchmarks run in the order in which they are registered.
@@ -152,54 +138,6 @@ void run(benchmark::State& state, int size, ScalarOrder order) {
                      median(ratios), kLeastRegularRatio));
 }
 
-// Starts are made when a lane asks for one, as in a renderer.
-class RegularFeeder : public PacketFeeder {
- public:
-  explicit RegularFeeder(const Input& input) : input_(input), lanes_(input.regular->mesh) {}
-
-  const PacketStart* next(const PacketStart* finished) override {
-    const std::size_t place = lanes_.place(finished);
-    while (at_ < input_.rays.size()) {
-      const std::size_t ray = at_++;
-      if (lanes_.set(place, input_.rays[ray], static_cast<std::uint32_t>(ray)) ==
-          RectilinearRay::ready)
-        return lanes_.start(place);
-    }
-    return nullptr;
-  }
-
- private:
-  const Input& input_;
-  RectilinearLanes lanes_;
-  std::size_t at_ = 0;
-};
-
-class HexahedraFeeder : public PacketFeeder {
- public:
-  HexahedraFeeder(const WalkableGrid& mesh, const std::vector<Input::Passage>& passages)
-      : mesh_(mesh), passages_(passages) {}
-
-  const PacketStart* next(const PacketStart* finished) override {
-    if (at_ == passages_.size()) return nullptr;
-    const std::size_t lane =
-        finished
-            ? static_cast<std::size_t>(static_cast<const GridStart*>(finished) - starts_.data())
-            : used_++;
-    const Input::Passage& passage = passages_[at_];
-    frames_[lane].set(passage.ray, mesh_.frame);
-    set_start(starts_[lane], mesh_, frames_[lane], mesh_.boundary[passage.entry.boundary],
-              passage.entry.place, passage.entry.rank, static_cast<std::uint32_t>(at_++));
-    return &starts_[lane];
-  }
-
- private:
-  const WalkableGrid& mesh_;
-  const std::vector<Input::Passage>& passages_;
-  std::array<GridStart, kMaxPacketLanes> starts_;
-  std::array<ShearedFrame, kMaxPacketLanes> frames_;  // starts refer to them
-  std::size_t used_ = 0, at_ = 0;
-};
-
 enum class Sum { cells, integral };
 
 // `packets(add)` calls add() for each feeder, with the mesh that its rays go through.
@@ -224,24 +162,31 @@ Walk walk_packets(std::size_t rays, Sum sum, const Packets& packets) {
 
 void run_packets(benchmark::State& state, int size, Sum sum) {
   const Input& input = input_of(size);
-  std::vector<double> ours, theirs, ratios;
+  std::vector<double> ours, theirs, ratios, ratios_inside;
   for (auto unused : state) {
     (void)unused;
-    const Walk as_hexahedra = walk_packets(input.rays.size(), sum, [&](const auto& add) {
-      for (int axis = 0; axis < 3; ++axis) {
-        HexahedraFeeder feeder(input.hexahedra->mesh,
-                               input.passages[static_cast<std::size_t>(axis)]);
-        add(input.hexahedra->mesh, axis, feeder);
-      }
+    const Form<GridWalker>& hexahedra = *input.hexahedra;
+    const double start = thread_seconds();
+    std::array<std::unique_ptr<HexahedraFeeder>, 3> feeders;
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      feeders[axis] = std::make_unique<HexahedraFeeder>(hexahedra.mesh, hexahedra.boundary,
+                                                        input.rays_of_axis[axis]);
+    const double entering = thread_seconds() - start;
+    Walk as_hexahedra = walk_packets(input.rays.size(), sum, [&](const auto& add) {
+      for (int axis = 0; axis < 3; ++axis)
+        add(hexahedra.mesh, axis, *feeders[static_cast<std::size_t>(axis)]);
     });
+    const double rate_inside = as_hexahedra.rate();
+    as_hexahedra.seconds += entering;
     const Walk as_such = walk_packets(input.rays.size(), sum, [&](const auto& add) {
-      RegularFeeder feeder(input);
+      RegularFeeder feeder(input.regular->mesh, input.rays);
       add(input.regular->mesh, feeder);
     });
     state.SetIterationTime(as_such.seconds);
     ours.push_back(as_such.rate());
     theirs.push_back(as_hexahedra.rate());
     ratios.push_back(as_such.rate() / as_hexahedra.rate());
+    ratios_inside.push_back(as_such.rate() / rate_inside);
     auto differ = [](double a, double b) { return !(std::abs(a - b) <= 1e-5 * std::abs(b)); };
     if (differ(as_such.length, as_hexahedra.length) || differ(as_such.sum, as_hexahedra.sum) ||
         differ(as_such.cells, as_hexahedra.cells)) {
@@ -252,6 +197,7 @@ void run_packets(benchmark::State& state, int size, Sum sum) {
   state.counters["Mcells/s"] = median(ours);
   state.counters["hexahedra_Mcells/s"] = median(theirs);
   state.counters["ratio"] = median(ratios);
+  state.counters["ratio_inside"] = median(ratios_inside);
   if (median(ratios) < kLeastRegularRatio)
     fail(state,
          fmt::format("packets at {:.2f} times the rate of hexahedra's, at least {} are promised",

@@ -13,6 +13,11 @@ inline constexpr double kLeastRegularRatio = 2;
 /// processor;
 /// - ratio: the one by the other;
 /// - bytes/point: of the walkable form.
+///
+/// And walk/regular/<cells along an edge>/packets/<cells, integral>: the same rays in packets of
+/// either form, with the widest instructions at hand, each from the ray alone. Besides, reported is
+/// - ratio_inside: of the one from the ray to the other from where it comes in, which takes
+/// hexahedra a hierarchy to find.
 void register_regular_benchmarks(int rounds);
 
 /// True where the two did not come to the same lengths and sums, or the ratio was below
