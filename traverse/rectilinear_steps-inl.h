@@ -315,6 +315,10 @@ class RectilinearSteps {
 };
 
 // Walks all rays of `feeder`. Requires walked_by_packets(mesh).
+//
+// Asking ahead costs an eighth of the rate where a core's own cache holds the values (AVX-512, 65
+// points along an edge), and gives 1.8 times that rate with 193 and rays at random. Counting reads
+// no values.
 template <class Consumer>
 void Walk(const WalkableRectilinear& mesh, Consumer& consumer, PacketFeeder& feeder) {
   constexpr std::size_t kLargeMesh = 500000;  // values
