@@ -17,6 +17,7 @@
 
 #include "hwy/highway.h"
 #include "plume/mesh/walkable_rectilinear.h"
+#include "plume/traverse/axis_lanes-inl.h"
 #include "plume/traverse/lane_loads-inl.h"
 #include "plume/traverse/packet_walk-inl.h"
 #include "plume/traverse/rectilinear_start.h"
@@ -24,37 +25,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
-
-// Half of a packet's lanes in double; all of them where a vector has one lane.
-using DD = HWY_CAPPED(double, kMaxLanes / 2);
-using DI = hn::RebindToSigned<DD>;
-using DH = hn::Rebind<float, DD>;
-using VD = hn::Vec<DD>;
-using VI = hn::Vec<DI>;
-using VH = hn::Vec<DH>;
-using MD = hn::Mask<DD>;
-constexpr std::size_t kDoubles = hn::MaxLanes(DD());
-constexpr std::size_t kParts = hn::MaxLanes(DF()) / kDoubles;
-
-// What the parts have, for all lanes.
-HWY_INLINE VF Join(const VH (&parts)[kParts]) {
-#if HWY_TARGET == HWY_SCALAR
-  return parts[0];
-#else
-  return hn::Combine(DF(), parts[1], parts[0]);
-#endif
-}
-HWY_INLINE MF Join(const MD (&parts)[kParts]) {
-#if HWY_TARGET == HWY_SCALAR
-  return MF::FromBool(parts[0].bits != 0);
-#elif HWY_TARGET <= HWY_AVX3
-  return MF{static_cast<__mmask16>(parts[1].raw << 8 | parts[0].raw)};
-#else
-  const DF d;
-  return hn::MaskFromVec(hn::ConcatEven(d, hn::BitCast(d, hn::VecFromMask(DD(), parts[1])),
-                                        hn::BitCast(d, hn::VecFromMask(DD(), parts[0]))));
-#endif
-}
 
 // RectilinearWalker's find_exit() and advance(), a ray a lane (see PacketWalk). Where a ray crosses
 // a plane is computed in double by the walker's operations in their order, so cells and places are
@@ -94,7 +64,8 @@ class RectilinearSteps {
 
   explicit RectilinearSteps(const WalkableRectilinear& mesh)
       : planes_(mesh.axes[0].coordinates.data()),
-        values_(mesh.point_values.empty() ? nullptr : mesh.point_values.data()) {}
+        values_(mesh.point_values.empty() ? nullptr : mesh.point_values.data()),
+        last_value_(static_cast<std::uint32_t>(mesh.point_values.size() - 1)) {}
 
   void Put(State& state, std::size_t lane, const RectilinearStart& start) const {
     state.put(lane, start);
@@ -141,7 +112,7 @@ class RectilinearSteps {
     return hn::Load(DU(), state.cell);
   }
 
-  // Lanes that have left ask for what nobody needs.
+  // Near the grid's end, where rays leave, some ask for what nobody needs.
   HWY_INLINE void Prefetch(const State& state) const {
     if (values_ == nullptr) return;
     for (const auto& points : state.ahead)
@@ -156,43 +127,6 @@ class RectilinearSteps {
   }
 
  private:
-  // Whether the plane ahead along the second axis is crossed before that along the first, and that
-  // along the third before both.
-  template <class M>
-  struct Exit {
-    M second_first, third;
-
-    // What the axis of the exit has; what the first of the other two has, and the last of them.
-    template <class V>
-    HWY_INLINE V Of(const V (&axes)[3]) const {
-      return hn::IfThenElse(third, axes[2], hn::IfThenElse(second_first, axes[1], axes[0]));
-    }
-    template <class V>
-    HWY_INLINE V FirstBesides(const V (&axes)[3]) const {
-      return hn::IfThenElse(hn::Or(second_first, third), axes[0], axes[1]);
-    }
-    template <class V>
-    HWY_INLINE V LastBesides(const V (&axes)[3]) const {
-      return hn::IfThenElse(third, axes[1], axes[2]);
-    }
-  };
-
-  template <class D, class T>
-  static HWY_INLINE void LoadAxes(D d, const T (&from)[3][kMaxLanes], std::size_t lane,
-                                  hn::Vec<D> (&axes)[3]) {
-    for (std::size_t a = 0; a < 3; ++a) axes[a] = hn::Load(d, from[a] + lane);
-  }
-
-  // Puts what is new along the axis of the exit in the place of what was there.
-  template <class D, class M, class T>
-  static HWY_INLINE void StoreExit(D d, const Exit<M>& exit, const hn::Vec<D> (&axes)[3],
-                                   hn::Vec<D> with, std::size_t lane, T (&to)[3][kMaxLanes]) {
-    auto third = exit.third, second_first = exit.second_first;
-    hn::Store(hn::IfThenElse(hn::Or(second_first, third), axes[0], with), d, to[0] + lane);
-    hn::Store(hn::IfThenElse(hn::AndNot(third, second_first), with, axes[1]), d, to[1] + lane);
-    hn::Store(hn::IfThenElse(third, with, axes[2]), d, to[2] + lane);
-  }
-
   template <bool kMeasure, bool kValues>
   HWY_INLINE StepResult StepTo(State& state) const {
     const DF d;
@@ -206,7 +140,7 @@ class RectilinearSteps {
       const std::size_t lane = part * kDoubles;
       VD t_next[3];
       LoadAxes(dd, state.t_next, lane, t_next);
-      Exit<MD> exit;
+      ExitLanes<MD> exit;
       exit.second_first = hn::Lt(t_next[1], t_next[0]);
       exit.third = hn::Lt(t_next[2], hn::IfThenElse(exit.second_first, t_next[1], t_next[0]));
       const VD t_out = exit.Of(t_next);
@@ -218,8 +152,8 @@ class RectilinearSteps {
       VI planes[3], to_plane[3];
       LoadAxes(di, state.plane, lane, planes);
       LoadAxes(di, state.to_plane, lane, to_plane);
-      const Exit<hn::Mask<DI>> which{hn::RebindMask(di, exit.second_first),
-                                     hn::RebindMask(di, exit.third)};
+      const ExitLanes<hn::Mask<DI>> which{hn::RebindMask(di, exit.second_first),
+                                          hn::RebindMask(di, exit.third)};
       const VI plane = hn::Add(
           which.Of(planes), hn::IfThenZeroElse(hn::RebindMask(di, left[part]), which.Of(to_plane)));
       StoreExit(di, which, planes, plane, lane, state.plane);
@@ -241,9 +175,9 @@ class RectilinearSteps {
       }
     }
 
-    const Exit<MF> exit{Join(second_first), Join(third)};
-    const Exit<hn::Mask<DU>> which{hn::RebindMask(du, exit.second_first),
-                                   hn::RebindMask(du, exit.third)};
+    const ExitLanes<MF> exit{Join(second_first), Join(third)};
+    const ExitLanes<hn::Mask<DU>> which{hn::RebindMask(du, exit.second_first),
+                                        hn::RebindMask(du, exit.third)};
     VU steps[3];
     LoadAxes(du, state.to_cell, 0, steps);
     hn::Store(hn::Add(hn::Load(du, state.cell), which.Of(steps)), du, state.cell);
@@ -257,12 +191,14 @@ class RectilinearSteps {
       LoadAxes(du, state.to_point, 0, steps);
       const VU corner = hn::Add(hn::Load(du, state.near_corner), which.Of(steps));
       hn::Store(corner, du, state.near_corner);
-      if constexpr (kAhead)
+      if constexpr (kAhead) {
+        const VU last = hn::Set(du, last_value_);
         for (std::size_t i = 0; i < 2; ++i) {
           VU to_ahead[3];
           LoadAxes(du, state.to_ahead[i], 0, to_ahead);
-          hn::Store(hn::Add(corner, which.Of(to_ahead)), du, state.ahead[i]);
+          hn::Store(hn::Min(hn::Add(corner, which.Of(to_ahead)), last), du, state.ahead[i]);
         }
+      }
       VF rate[3], base[3];
       LoadAxes(d, state.rate, 0, rate);
       LoadAxes(d, state.base, 0, base);
@@ -294,7 +230,7 @@ class RectilinearSteps {
   }
 
   // Values lie in rows along x, and a line of the cache has 16 of them. Along another axis the next
-  // cell has two rows that this one has not; along x, it may have the next line of four.
+  // cell has two rows that this one has not; along x two of its four are asked for, half a line on.
   static HWY_INLINE void PutAhead(State& state, std::size_t lane, const RectilinearWalker& walker,
                                   std::size_t a) {
     const RectilinearWalker::Axis& axis = walker.axes()[a];
@@ -312,6 +248,7 @@ class RectilinearSteps {
 
   const double* planes_;  // the first axis'; offsets lead from it to those of all axes
   const float* values_;   // of points, or null
+  std::uint32_t last_value_;
 };
 
 // Walks all rays of `feeder`. Requires walked_by_packets(mesh).

@@ -138,6 +138,11 @@ TEST(RectilinearPackets, TakeTheWayOfTheirTwin) {
   }
 }
 
+// Where there are so many values that packets ask ahead.
+TEST(RectilinearPackets, TakeTheWayOfTheirTwinThroughManyCells) {
+  expect_twins({"many", {90, 80, 75}, 0.5, 2}, Association::point, 3000);
+}
+
 TEST(RectilinearPackets, CountAndMeasureCellsWithoutValuesOnPoints) {
   expect_twins({"uneven", {7, 5, 11}, 0.9}, Association::cell, 6000);
 }
