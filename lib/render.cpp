@@ -18,6 +18,7 @@
 
 #include "plume/lib/packet_tile.h"
 #include "plume/lib/pixel.h"
+#include "plume/lib/rectilinear_tile.h"
 #include "plume/lib/scene_body.h"
 #include "plume/mesh/error.h"
 #include "plume/traverse/packets.h"
@@ -83,7 +84,9 @@ bool has_packets(const Scene& scene) {
         using Walker = typename std::decay_t<decltype(*walkable)>::Walker;
         if constexpr (std::is_same_v<Walker, CellWalker>)
           return !walkable->mesh.corner_cells.empty();
-        return !std::is_same_v<Walker, RectilinearWalker>;
+        if constexpr (std::is_same_v<Walker, RectilinearWalker>)
+          return walked_by_packets(walkable->mesh);
+        return true;
       },
       scene.body().walkable);
 }
@@ -406,17 +409,15 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   std::visit(
       [&](const auto& walkable, const auto& chosen) {
         using Form = typename std::decay_t<decltype(*walkable)>::Walker;
-        if constexpr (std::is_same_v<Form, TetWalker> || std::is_same_v<Form, GridWalker>) {
-          if (frame.by_packets()) {
-            tbb::enumerable_thread_specific<PacketTile<Form>> packets([&] {
-              return PacketTile<Form>(walkable->mesh, walkable->boundary, pieces,
-                                      static_cast<float>(effective.early_termination));
-            });
-            for_each_tile([&](int x, int y) {
-              frame.render_tile(*walkable, chosen, packets.local(), x, y, counts.local());
-            });
-            return;
-          }
+        if (frame.by_packets()) {
+          tbb::enumerable_thread_specific<PacketTile<Form>> packets([&] {
+            return PacketTile<Form>(walkable->mesh, walkable->boundary, pieces,
+                                    static_cast<float>(effective.early_termination));
+          });
+          for_each_tile([&](int x, int y) {
+            frame.render_tile(*walkable, chosen, packets.local(), x, y, counts.local());
+          });
+          return;
         }
         for_each_tile(
             [&](int x, int y) { frame.render_tile(*walkable, chosen, x, y, counts.local()); });

@@ -6,6 +6,7 @@
 
 #include "plume/mesh/walkable_cells.h"
 #include "plume/mesh/walkable_grid.h"
+#include "plume/mesh/walkable_rectilinear.h"
 #include "plume/mesh/walkable_tets.h"
 #include "plume/preint/piece_table.h"
 #include "plume/traverse/packet_start.h"
@@ -37,6 +38,10 @@ void composite_packets(const WalkableGrid& mesh, const PieceTable& table, int ax
                        float early_termination, PacketFeeder& feeder,
                        std::span<PacketColor> colors);
 void composite_packets(const WalkableCells& mesh, const PieceTable& table, int axis,
+                       float early_termination, PacketFeeder& feeder,
+                       std::span<PacketColor> colors);
+/// On rays of all axes together. Requires walked_by_packets(mesh).
+void composite_packets(const WalkableRectilinear& mesh, const PieceTable& table,
                        float early_termination, PacketFeeder& feeder,
                        std::span<PacketColor> colors);
 

@@ -7,6 +7,7 @@
 
 #include "plume/mesh/walkable_cells.h"
 #include "plume/mesh/walkable_grid.h"
+#include "plume/mesh/walkable_rectilinear.h"
 #include "plume/mesh/walkable_tets.h"
 #include "plume/traverse/packet_start.h"
 
@@ -16,11 +17,16 @@ namespace plume {
 /// (added to what is there). The rays' longest axis must be `axis`, 0 to 2; their starts are
 /// TetStart, GridStart or CellStart, as the mesh is. Takes the same way as TetWalker, GridWalker or
 /// CellWalker, bit for bit, with any instruction set. WalkableCells need their corner_cells.
+///
+/// A rectilinear grid is walked as RectilinearWalker does, on rays of all axes together; starts are
+/// RectilinearStart, and the grid one that is walked_by_packets() (traverse/rectilinear_start.h).
 void count_cells(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
                  std::span<std::uint32_t> counts);
 void count_cells(const WalkableGrid& mesh, int axis, PacketFeeder& feeder,
                  std::span<std::uint32_t> counts);
 void count_cells(const WalkableCells& mesh, int axis, PacketFeeder& feeder,
+                 std::span<std::uint32_t> counts);
+void count_cells(const WalkableRectilinear& mesh, PacketFeeder& feeder,
                  std::span<std::uint32_t> counts);
 
 /// The line integral of the scalar along the passages of a ray.
@@ -31,13 +37,16 @@ struct PacketIntegral {
 };
 
 /// Walks all rays of `feeder` and adds, by PacketStart::ray, what they meet to what is there. The
-/// scalar is that of the points. Sums are in single precision: after n cells their error is n units
-/// in the last place at the most, and about the square root of that.
+/// scalar is that of the points, 0 in a rectilinear grid that has none. Sums are in single
+/// precision: after n cells their error is n units in the last place at the most, and about the
+/// square root of that.
 void integrate_scalar(const WalkableTets& mesh, int axis, PacketFeeder& feeder,
                       std::span<PacketIntegral> sums);
 void integrate_scalar(const WalkableGrid& mesh, int axis, PacketFeeder& feeder,
                       std::span<PacketIntegral> sums);
 void integrate_scalar(const WalkableCells& mesh, int axis, PacketFeeder& feeder,
+                      std::span<PacketIntegral> sums);
+void integrate_scalar(const WalkableRectilinear& mesh, PacketFeeder& feeder,
                       std::span<PacketIntegral> sums);
 
 /// Where a ray first meets an isosurface.
@@ -55,6 +64,8 @@ void find_isosurface(const WalkableTets& mesh, int axis, float isovalue, PacketF
 void find_isosurface(const WalkableGrid& mesh, int axis, float isovalue, PacketFeeder& feeder,
                      std::span<PacketHit> hits);
 void find_isosurface(const WalkableCells& mesh, int axis, float isovalue, PacketFeeder& feeder,
+                     std::span<PacketHit> hits);
+void find_isosurface(const WalkableRectilinear& mesh, float isovalue, PacketFeeder& feeder,
                      std::span<PacketHit> hits);
 
 /// Segments of packets, for tests: what every lane met, in the order in which it did.
@@ -75,6 +86,7 @@ void walk_segments(const WalkableGrid& mesh, int axis, PacketFeeder& feeder,
                    PacketSegmentSink& sink);
 void walk_segments(const WalkableCells& mesh, int axis, PacketFeeder& feeder,
                    PacketSegmentSink& sink);
+void walk_segments(const WalkableRectilinear& mesh, PacketFeeder& feeder, PacketSegmentSink& sink);
 
 /// The instruction set that is used: "AVX3", "AVX2", "SSE4", "NEON", ...
 const char* packet_instruction_set();

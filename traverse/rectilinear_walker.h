@@ -33,6 +33,30 @@ class RectilinearWalker {
  public:
   using Mesh = WalkableRectilinear;
 
+  /// One axis as the ray sees it: planes, cells and points are counted along the ray.
+  struct Axis {
+    double t_next;         // where the ray crosses the plane ahead
+    double t_after;        // and the one after that
+    double t_behind;       // where it has crossed the one behind; 0 for an axis across the ray
+    double rate;           // weight per t; 0 for an axis across the ray
+    double base;           // weight of an axis across the ray, else 0
+    double origin;         // the ray's origin
+    double per_direction;  // 1 / direction; infinite for an axis across the ray
+    double speed;          // |direction|
+    const double* plane;   // the coordinate of the plane after the one ahead, or of the last
+    const double* last;
+    const double* per_width;
+    std::ptrdiff_t step;   // from a plane to the next in memory: 1 or -1
+    std::uint32_t number;  // of the mesh's axes
+    std::uint32_t planes;
+    std::uint32_t cell_step, point_step;  // modulo 2^32, as they may be negative
+    bool across;                          // the ray runs along this axis' planes
+
+    // How far between the planes behind and ahead: 0 to 1. Rounding may take it above 1, not below
+    // 0, as t is not less than t_behind.
+    double weight(double t) const { return std::min(1.0, base + (t - t_behind) * rate); }
+  };
+
   explicit RectilinearWalker(const WalkableRectilinear& mesh) : mesh_(mesh) {}
 
   /// Goes to the cell that the ray is in at t_min, or where it comes into the grid behind that.
@@ -96,31 +120,18 @@ class RectilinearWalker {
     find_exit();
   }
 
+  /// What packets take over of a walk: the axes in the order in which ties are resolved, the plane
+  /// ahead along each, and the cell's corner that is behind along all of them.
+  const std::array<Axis, 3>& axes() const { return axes_; }
+  const double* plane_ahead(const Axis& axis) const {
+    const WalkableRectilinear::Axis& given = mesh_.axes[axis.number];
+    return given.coordinates.data() + (axis.per_width - given.per_width.data()) +
+           (axis.step > 0 ? 1 : 0);
+  }
+  std::uint32_t near_corner() const { return near_; }
+
  private:
   static constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
-  // One axis as the ray sees it: planes, cells and points are counted along the ray.
-  struct Axis {
-    double t_next;         // where the ray crosses the plane ahead
-    double t_after;        // and the one after that
-    double t_behind;       // where it has crossed the one behind; 0 for an axis across the ray
-    double rate;           // weight per t; 0 for an axis across the ray
-    double base;           // weight of an axis across the ray, else 0
-    double origin;         // the ray's origin
-    double per_direction;  // 1 / direction; infinite for an axis across the ray
-    double speed;          // |direction|
-    const double* plane;   // the coordinate of the plane after the one ahead, or of the last
-    const double* last;
-    const double* per_width;
-    std::ptrdiff_t step;  // from a plane to the next in memory: 1 or -1
-    std::uint32_t planes;
-    std::uint32_t cell_step, point_step;  // modulo 2^32, as they may be negative
-    bool across;                          // the ray runs along this axis' planes
-
-    // How far between the planes behind and ahead: 0 to 1. Rounding may take it above 1, not below
-    // 0, as t is not less than t_behind.
-    double weight(double t) const { return std::min(1.0, base + (t - t_behind) * rate); }
-  };
 
   // The axes in the order in which a ray through a vertex crosses their planes: moved by +e, it
   // crosses a plane earlier by e / direction. So axes along which it goes up come first, the one
@@ -150,6 +161,7 @@ class RectilinearWalker {
     axis.per_direction = per_direction;
     axis.speed = speed;
     axis.across = speed == 0;
+    axis.number = static_cast<std::uint32_t>(a);
     axis.planes = mesh_.points(a);
     const bool forwards = up == given.ascending();
     axis.step = forwards ? 1 : -1;
@@ -175,14 +187,47 @@ class RectilinearWalker {
     return distance * axis.per_direction;
   }
 
+  // The last plane that is crossed at `begin` or before; not the last of all. It is looked for from
+  // where it would be if all widths were the same, in steps that double, then in halves.
+  static std::uint32_t last_crossed(const Axis& axis, double begin) {
+    std::uint32_t crossed = 0, open = axis.planes - 1;
+    auto is_crossed = [&](std::uint32_t i) { return t_of(axis, i) <= begin; };
+    const double first = axis.across ? *axis.plane : t_of(axis, 0);
+    const double last = axis.across ? *axis.last : t_of(axis, open);
+    const double place = ((axis.across ? axis.origin : begin) - first) / (last - first) * open;
+    // Whatever rounding made of it: no number becomes 0.
+    const auto guess = static_cast<std::uint32_t>(std::min(open - 1.0, std::max(0.0, place)));
+    if (is_crossed(guess) & !is_crossed(guess + 1)) return guess;  // at once, as a rule
+    if (is_crossed(guess)) {
+      crossed = guess;
+      for (std::uint32_t step = 1; step < open - crossed; step *= 2) {
+        if (!is_crossed(crossed + step)) {
+          open = crossed + step;
+          break;
+        }
+        crossed += step;
+      }
+    } else {
+      open = guess;
+      for (std::uint32_t step = 1; step < open - crossed; step *= 2) {
+        if (is_crossed(open - step)) {
+          crossed = open - step;
+          break;
+        }
+        open -= step;
+      }
+    }
+    while (open - crossed > 1) {
+      const std::uint32_t middle = crossed + (open - crossed) / 2;
+      (is_crossed(middle) ? crossed : open) = middle;
+    }
+    return crossed;
+  }
+
   // Puts the axis between the last plane that is crossed at `begin` or before and the next one.
   // There are both: the first plane is crossed by then and the last one is not.
   void place(Axis& axis, double begin) {
-    std::uint32_t crossed = 0, open = axis.planes - 1;
-    while (open - crossed > 1) {
-      const std::uint32_t middle = crossed + (open - crossed) / 2;
-      (t_of(axis, middle) <= begin ? crossed : open) = middle;
-    }
+    const std::uint32_t crossed = last_crossed(axis, begin), open = crossed + 1;
     axis.t_behind = axis.across ? 0 : t_of(axis, crossed);
     axis.t_next = t_of(axis, open);
     const std::ptrdiff_t cells = static_cast<std::ptrdiff_t>(crossed) * axis.step;

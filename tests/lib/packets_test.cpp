@@ -89,7 +89,7 @@ class EachInstructionSet : public testing::Test {
 class Packets : public EachInstructionSet, public testing::WithParamInterface<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Each, Packets,
                          testing::Values("box-tetrahedra", "box-hexahedra", "twisted", "box-wedges",
-                                         "box-mixed"),
+                                         "box-mixed", "box-rectilinear"),
                          [](const auto& one) {
                            std::string name = one.param;
                            std::erase(name, '-');
@@ -172,15 +172,24 @@ TEST_P(Packets, EnterAgainWhereTheMeshHasGaps) {
   settings.early_termination = 0;
   const RenderStatistics statistics = render(scene, camera, settings).statistics;
   EXPECT_GT(statistics.entries, 3 * statistics.rays_hit);
+  // Hidden cells of a rectilinear grid are left to the twin.
+  if (std::string(scene.form()) == "rectilinear grid") {
+    for (const std::string& line : statistics.plan)
+      EXPECT_EQ(line.find("packets"), std::string::npos) << line;
+    return;
+  }
   for_each([&] { EXPECT_LE(worst_difference(scene, camera), kBound); });
 }
 
 TEST_P(Packets, SeeThroughWhatIsNotANumber) {
   Mesh mesh = generate(GetParam(), {6, 0.2, 2});
   std::vector<float> values;
-  for (std::size_t i = 0; i < mesh.point_count(); ++i)
-    values.push_back(i % 7 == 0 ? std::numeric_limits<float>::quiet_NaN()
-                                : mesh.points.at<float>(3 * i));
+  const std::size_t row = mesh.is_rectilinear() ? mesh.axes[0].size() : 1;
+  for (std::size_t i = 0; i < mesh.point_count(); ++i) {
+    const float x = mesh.is_rectilinear() ? static_cast<float>(mesh.axes[0].at<double>(i % row))
+                                          : mesh.points.at<float>(3 * i);
+    values.push_back(i % 7 == 0 ? std::numeric_limits<float>::quiet_NaN() : x);
+  }
   mesh.fields = {{"holes", Association::point, 1, Array::own(std::move(values))}};
   const Scene scene(mesh);
   for_each([&] { EXPECT_LE(worst_difference(scene, oblique(scene)), kBound); });

@@ -1,0 +1,44 @@
+#include "plume/lib/rectilinear_tile.h"
+
+#include <cstdint>
+
+namespace plume {
+
+// Rays are set up when a lane asks for one.
+class PacketTile<RectilinearWalker>::Feeder : public PacketFeeder {
+ public:
+  explicit Feeder(PacketTile& tile) : tile_(tile) { tile.lanes_.clear(); }
+
+  const PacketStart* next(const PacketStart* finished) override {
+    const std::size_t place = tile_.lanes_.place(finished);
+    while (at_ < tile_.rays_.size()) {
+      TileRay& ray = tile_.rays_[at_];
+      ray.answer = tile_.lanes_.set(place, ray.ray, static_cast<std::uint32_t>(at_));
+      ++at_;
+      if (ray.answer == RectilinearRay::ready) return tile_.lanes_.start(place);
+    }
+    return nullptr;
+  }
+
+ private:
+  PacketTile& tile_;
+  std::size_t at_ = 0;
+};
+
+void PacketTile<RectilinearWalker>::composite() {
+  colors_.assign(rays_.size(), PacketColor{});
+  Feeder feeder(*this);
+  composite_packets(mesh_, table_, early_termination_, feeder, colors_);
+}
+
+PacketResult PacketTile<RectilinearWalker>::result(std::size_t ray) const {
+  const RectilinearRay answer = rays_[ray].answer;
+  const PacketColor& color = colors_[ray];
+  TraceResult trace;
+  trace.end = color.opaque ? WalkEnd::stopped : WalkEnd::left;
+  trace.entries = answer == RectilinearRay::ready ? 1 : 0;
+  trace.cells = color.cells;
+  return {color, trace, answer == RectilinearRay::declined};
+}
+
+}  // namespace plume
