@@ -6,5 +6,6 @@
 #include "plume/lib/image.h"
 #include "plume/lib/render.h"
 #include "plume/lib/scene.h"
+#include "plume/lib/shading.h"
 #include "plume/mesh/error.h"
 #include "plume/mesh/mesh.h"

@@ -16,6 +16,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "plume/lib/classified_pixel.h"
 #include "plume/lib/packet_tile.h"
 #include "plume/lib/pixel.h"
 #include "plume/lib/scene_body.h"
@@ -42,9 +43,20 @@ constexpr std::array<TilePixel, kTile* kTile> kTileOrder = [] {
   return order;
 }();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-const std::vector<std::string> kChannels{"depth", "optical_depth", "cell_id", "cell_count"};
+// Passages closer than this share of the mesh's diagonal are one, as far as intervals and
+// isosurfaces are concerned: places on the faces of blocks that touch differ by rounding, which is
+// some 1e-7 of the mesh.
+constexpr double kGap = 1e-6;
+const std::vector<std::string> kChannels{"depth", "optical_depth", "cell_id", "cell_count",
+                                         "isovalue"};
 
-void check(const RenderSettings& settings) {
+// Whether the picture shows more than a volume.
+bool is_classified(const Scene& scene, const RenderSettings& settings) {
+  return !scene.classification().is_plain_volume() &&
+         (settings.mode == Mode::volume || settings.mode == Mode::depth);
+}
+
+void check(const Scene& scene, const RenderSettings& settings) {
   auto in_range = [](int pixels) { return pixels >= 1 && pixels <= 65536; };
   if (!in_range(settings.width) || !in_range(settings.height))
     throw Error(fmt::format("a picture of {}x{} pixels: each side must be 1 to 65536",
@@ -63,10 +75,16 @@ void check(const RenderSettings& settings) {
     if (std::find(kChannels.begin(), kChannels.end(), channel) == kChannels.end())
       throw Error(
           fmt::format("no channel '{}'; there are: {}", channel, fmt::join(kChannels, " ")));
+  for (const std::string& channel : settings.channels)
+    if (channel == "isovalue" && !is_classified(scene, settings))
+      throw Error(fmt::format(
+          "channel '{}': it is of isosurfaces and intervals, in the modes volume and depth; give "
+          "the scene's classification one",
+          channel));
 }
 
 struct Counts {
-  std::uint64_t hit = 0, entries = 0, cells = 0, lost = 0;
+  std::uint64_t hit = 0, entries = 0, cells = 0, lost = 0, surfaces = 0, visits = 0;
 
   void add(const TraceResult& trace) {
     hit += trace.entries > 0 ? 1 : 0;
@@ -83,6 +101,8 @@ class Frame {
       : scene_(scene),
         settings_(settings),
         rays_(camera, settings.width, settings.height),
+        classified_(is_classified(scene, settings)),
+        optics_(classified_ ? scene.classification() : Classification{}, settings.interval_form),
         tolerance_(1e-4 * (static_cast<double>(scene.field().high) - scene.field().low)) {
     image_.width = settings.width;
     image_.height = settings.height;
@@ -95,6 +115,7 @@ class Frame {
     optical_depth_ = wanted("optical_depth");
     cell_id_ = wanted("cell_id");
     cell_count_ = wanted("cell_count");
+    isovalue_ = wanted("isovalue");
   }
 
   bool whole_rays() const { return optical_depth_ || cell_count_; }
@@ -113,7 +134,10 @@ class Frame {
         const std::size_t index =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(settings_.width) +
             static_cast<std::size_t>(x);
-        counts.add(render_pixel(walkable, integrator, rays_(x + 0.5, y + 0.5), index));
+        counts.add(
+            classified_
+                ? classify_pixel(walkable, integrator, rays_(x + 0.5, y + 0.5), index, counts)
+                : render_pixel(walkable, integrator, rays_(x + 0.5, y + 0.5), index));
       }
   }
 
@@ -151,12 +175,13 @@ class Frame {
     });
   }
 
-  // Whether packets can render this frame: linear segments, volume, closed form, nothing besides.
+  // Whether packets can render this frame: linear segments, nothing but a volume, closed form, no
+  // further channels.
   bool by_packets() const {
     const bool linear = settings_.order == ScalarOrder::linear ||
                         scene_.field().association == Association::cell ||
                         std::string(scene_.form()) == "tetrahedra";
-    return linear && !settings_.scalar_twin && settings_.mode == Mode::volume &&
+    return linear && !classified_ && !settings_.scalar_twin && settings_.mode == Mode::volume &&
            settings_.integrator.kind == IntegratorKind::closed_form && settings_.channels.empty();
   }
 
@@ -211,6 +236,38 @@ class Frame {
     put(cell_count_, static_cast<double>(channels.cells));
     put(cell_id_,
         channels.first.cell == kNone ? -1.0 : walkable.mesh.original_cell(channels.first.cell));
+    return result;
+  }
+
+  // A pixel of a scene with intervals or isosurfaces.
+  template <class Walkable, class Integrator>
+  TraceResult classify_pixel(const Walkable& walkable, const Integrator& integrator, const Ray& ray,
+                             std::size_t index, Counts& counts) {
+    const bool depth_alone = settings_.mode == Mode::depth;
+    auto shade = [](const SurfaceHit&) { return Shading{}; };
+    ClassifiedPixel pixel(
+        optics_, integrator, shade,
+        {settings_.early_termination, tolerance_, kGap * scene_.bounds().diagonal(), false,
+         depth_alone && !whole_rays(), whole_rays()});
+    const TraceResult result = trace(walkable.mesh, walkable.boundary, ray, pixel, settings_.order);
+    counts.surfaces += pixel.surfaces;
+    counts.visits += pixel.visits;
+    float* rgba = &image_.rgba[4 * index];
+    if (depth_alone) {
+      image_.channels[*raw_].values[index] = static_cast<float>(pixel.first.t);
+      rgba[3] = pixel.first.is_one() ? 1.0f : 0.0f;
+    } else {
+      for (std::size_t c = 0; c < 3; ++c) rgba[c] = static_cast<float>(pixel.compositor.rgb[c]);
+      rgba[3] = static_cast<float>(pixel.compositor.alpha());
+    }
+    auto put = [&](const std::optional<std::size_t>& channel, double value) {
+      if (channel) image_.channels[*channel].values[index] = static_cast<float>(value);
+    };
+    put(depth_, pixel.first.t);
+    put(optical_depth_, pixel.optical_depth);
+    put(cell_count_, static_cast<double>(pixel.cells));
+    put(cell_id_, pixel.first.is_one() ? walkable.mesh.original_cell(pixel.first.cell) : -1.0);
+    put(isovalue_, pixel.first.scalar);
     return result;
   }
 
@@ -272,9 +329,11 @@ class Frame {
   const Scene& scene_;
   const RenderSettings& settings_;
   PixelRays rays_;
+  bool classified_;  // shows more than a volume, by optics_
+  ClassifiedOptics optics_;
   double tolerance_;  // of the linear parts of segments, in the field's unit
   Image image_;
-  std::optional<std::size_t> raw_, depth_, optical_depth_, cell_id_, cell_count_;
+  std::optional<std::size_t> raw_, depth_, optical_depth_, cell_id_, cell_count_, isovalue_;
 };
 
 // Calls the user's progress function with growing shares, one thread at a time.
@@ -310,6 +369,30 @@ const char* describe_order(ScalarOrder order) {
   return "linear between a cell's faces";
 }
 
+void describe_surfaces(const Scene& scene, const RenderSettings& settings,
+                       std::vector<std::string>& plan) {
+  const Classification& classification = scene.classification();
+  if (!classification.intervals.empty()) {
+    std::vector<std::string> ranges;
+    for (const IntervalVolume& interval : classification.intervals)
+      ranges.push_back(fmt::format("[{:g}, {:g}]", interval.low, interval.high));
+    plan.push_back(fmt::format(
+        "intervals: {}, split in data space, monotone along each ray, {}", fmt::join(ranges, " "),
+        settings.interval_form == IntervalForm::exponential ? "exponential" : "linear"));
+  }
+  if (!classification.isosurfaces.empty()) {
+    std::vector<std::string> values;
+    for (const Isosurface& surface : classification.isosurfaces)
+      values.push_back(fmt::format("{:g}", surface.value));
+    plan.push_back(fmt::format("isosurfaces: {}, {}", fmt::join(values, " "),
+                               settings.order == ScalarOrder::linear ||
+                                       std::string(scene.form()) == "tetrahedra" ||
+                                       scene.field().association == Association::cell
+                                   ? "in closed form"
+                                   : "by isolated roots of each cell's polynomial"));
+  }
+}
+
 std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings& settings) {
   std::vector<std::string> plan;
   const std::string form = scene.form();
@@ -329,9 +412,12 @@ std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings&
   switch (settings.mode) {
     case Mode::volume: {
       constexpr const char* kNames[] = {"midpoint", "table", "closed form"};
-      plan.push_back(fmt::format("integrator: {} ({} knots)",
-                                 kNames[static_cast<int>(settings.integrator.kind)],
-                                 scene.transfer_function().knots.size()));
+      if (!scene.classification().volume)
+        plan.push_back("volume: none");
+      else
+        plan.push_back(fmt::format("integrator: {} ({} knots)",
+                                   kNames[static_cast<int>(settings.integrator.kind)],
+                                   scene.transfer_function().knots.size()));
       break;
     }
     case Mode::maximum:
@@ -341,9 +427,11 @@ std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings&
       plan.push_back("integral of the scalar: no optics");
       break;
     case Mode::depth:
-      plan.push_back("first contribution: optical depth alone");
+      plan.push_back(is_classified(scene, settings) ? "first hit of an isosurface or interval"
+                                                    : "first contribution: optical depth alone");
       break;
   }
+  if (is_classified(scene, settings)) describe_surfaces(scene, settings, plan);
   return plan;
 }
 
@@ -351,7 +439,7 @@ std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings&
 
 RenderResult render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                     const Progress& progress) {
-  check(settings);
+  check(scene, settings);
   RenderSettings effective = settings;
   Frame frame(scene, camera, effective);
   RenderResult result;
@@ -360,7 +448,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
     result.statistics.plan.push_back(
         frame.by_packets() ? fmt::format("rays: in packets, {}", packet_instruction_set())
                            : "rays: one by one (packets serve the volume mode by the closed form, "
-                             "at order 1, without further channels)");
+                             "at order 1, without intervals, isosurfaces and further channels)");
   if (frame.whole_rays() && settings.mode == Mode::volume) {
     effective.early_termination = 0;
     result.statistics.plan.push_back("early termination: off, as a channel needs whole rays");
@@ -375,7 +463,8 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   tbb::enumerable_thread_specific<Counts> counts;
   const PieceTable pieces(scene.transfer_function());
   // A table is built only where the picture needs what is in it: colours.
-  if (settings.mode != Mode::volume) effective.integrator.kind = IntegratorKind::closed_form;
+  if (settings.mode != Mode::volume || !scene.classification().volume)
+    effective.integrator.kind = IntegratorKind::closed_form;
   const Integrator integrator = make_integrator(scene.transfer_function(), effective.integrator);
   const int available = tbb::this_task_arena::max_concurrency();
   tbb::task_arena arena(settings.threads > 0 ? std::min(settings.threads, available) : available);
@@ -416,6 +505,8 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
     result.statistics.entries += part.entries;
     result.statistics.cells_visited += part.cells;
     result.statistics.lost_rays += part.lost;
+    result.statistics.surfaces += part.surfaces;
+    result.statistics.visits += part.visits;
   }
   result.statistics.rays = frame.pixels();
   result.cancelled = report.cancelled();

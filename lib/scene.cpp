@@ -107,7 +107,7 @@ Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_un
         make_walkable_cells(mesh, field, body_->bounds, options.keep_cell_numbers)));
   body_->field.values = {};
   body_->unit_distance = fitted_unit_distance(*this);
-  body_->transfer_function = to_transfer_function(body_->default_map, body_->unit_distance);
+  set_transfer_function(to_transfer_function(body_->default_map, body_->unit_distance));
 }
 
 Scene::~Scene() = default;
@@ -126,7 +126,17 @@ double Scene::default_unit_distance() const { return body_->unit_distance; }
 void Scene::set_transfer_function(TransferFunction transfer_function) {
   if (const auto problem = transfer_function.problem())
     throw Error(fmt::format("transfer function: {}", *problem));
+  body_->classification.volume = transfer_function;
   body_->transfer_function = std::move(transfer_function);
+}
+
+const Classification& Scene::classification() const { return body_->classification; }
+
+void Scene::set_classification(Classification classification) {
+  if (const auto problem = classification.problem())
+    throw Error(fmt::format("classification: {}", *problem));
+  if (classification.volume) body_->transfer_function = *classification.volume;
+  body_->classification = std::move(classification);
 }
 
 const char* Scene::form() const {

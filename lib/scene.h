@@ -12,6 +12,7 @@
 #include "plume/mesh/local_frame.h"
 #include "plume/mesh/mesh.h"
 #include "plume/mesh/scalar_field.h"
+#include "plume/preint/classification.h"
 #include "plume/preint/transfer_function.h"
 #include "plume/traverse/ray.h"
 #include "plume/traverse/segment.h"
@@ -33,7 +34,7 @@ struct SceneOptions {
   CellData cell_data = CellData::constant;
 };
 
-/// Immutable but for the transfer function; safe to render from several threads.
+/// Immutable but for the classification; safe to render from several threads.
 class Scene {
  public:
   /// Checks the mesh, makes it walkable (in parallel) and chooses a transfer function that shows
@@ -70,8 +71,17 @@ class Scene {
   /// more than 4. A tenth of the diagonal of the bounds where nothing is opaque.
   double default_unit_distance() const;
 
+  /// What values look like: a volume by default. Intervals and isosurfaces are seen in the modes
+  /// volume and depth.
+  const Classification& classification() const;
+  /// Throws Error where the classification has a problem (see Classification::problem). Where it
+  /// has no volume, transfer_function() stays what it was.
+  void set_classification(Classification classification);
+
+  /// The volume's, or the last one that it had: the colours of the mode maximum.
   const TransferFunction& transfer_function() const;
-  /// Throws Error where the transfer function has a problem (see TransferFunction::problem).
+  /// Sets the volume of the classification and leaves its intervals and isosurfaces. Throws Error
+  /// where the transfer function has a problem (see TransferFunction::problem).
   void set_transfer_function(TransferFunction transfer_function);
 
   /// Follows a ray and calls `visit` for each segment, front to back, until that returns false.

@@ -34,6 +34,7 @@ struct Scene::Body {
   ColorMap default_map;
   double unit_distance = 1;
   TransferFunction transfer_function;
+  Classification classification;
 };
 
 }  // namespace plume

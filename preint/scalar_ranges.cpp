@@ -47,4 +47,9 @@ float ScalarRanges::w_of(std::int32_t interval, float scalar) const {
   return static_cast<float>(std::clamp((scalar - low) / (high - low), 0.0, 1.0));
 }
 
+float ScalarRanges::scalar_of(std::int32_t interval, float w) const {
+  const double low = this->low(interval), high = this->high(interval);
+  return static_cast<float>(w < 1 ? low + w * (high - low) : high);
+}
+
 }  // namespace plume

@@ -47,6 +47,9 @@ class ScalarRanges {
   /// w of a scalar of the interval, in [0, 1]; exactly 0 and 1 at its ends.
   float w_of(std::int32_t interval, float scalar) const;
 
+  /// The scalar of a w of the interval; exactly its ends at 0 and 1.
+  float scalar_of(std::int32_t interval, float w) const;
+
  private:
   struct Ends {
     float low, high;

@@ -16,6 +16,7 @@
 #include "plume/io/read_mesh.h"
 #include "plume/io/whole_file.h"
 #include "plume/lib/plume.h"
+#include "surface_options.h"
 
 namespace plume::command {
 namespace {
@@ -25,11 +26,12 @@ struct RenderArguments {
   std::string view = "iso", camera, transfer_function, transfer_range, mode = "volume";
   std::string integrator = "closed-form", order = "1", cell_data = "constant", background = "white",
               stats;
-  std::vector<std::string> channels;
+  std::string interval_form = "exponential";
+  std::vector<std::string> channels, isosurfaces, intervals;
   double azimuth = 0, elevation = 0, zoom = 1, opacity_scale = 1, view_angle = 0;
   double unit_distance = 0, early_termination = RenderSettings{}.early_termination;
   int time_step = -1, samples = 1, threads = 0, bits = 8;
-  bool parallel = false, merge_points = false, quiet = false, verbose = false;
+  bool no_volume = false, parallel = false, merge_points = false, quiet = false, verbose = false;
 };
 
 const std::vector<std::pair<std::string, Mode>> kModes{{"volume", Mode::volume},
@@ -42,6 +44,8 @@ const std::vector<std::pair<std::string, IntegratorKind>> kIntegrators{
     {"midpoint", IntegratorKind::midpoint}};
 const std::vector<std::pair<std::string, CellData>> kCellData{{"constant", CellData::constant},
                                                               {"averaged", CellData::averaged}};
+const std::vector<std::pair<std::string, IntervalForm>> kIntervalForms{
+    {"exponential", IntervalForm::exponential}, {"linear", IntervalForm::linear}};
 const std::vector<std::pair<std::string, ScalarOrder>> kOrders{
     {"1", ScalarOrder::linear}, {"2", ScalarOrder::quadratic}, {"3", ScalarOrder::cubic}};
 
@@ -101,6 +105,30 @@ void choose_transfer_function(Scene& scene, const RenderArguments& args, const C
         map.colors.front().x, map.colors.back().x, field.name, field.low, field.high));
   const double unit = args.unit_distance > 0 ? args.unit_distance : scene.default_unit_distance();
   scene.set_transfer_function(to_transfer_function(map, unit, args.opacity_scale));
+}
+
+void choose_classification(Scene& scene, const RenderArguments& args, const Console& console) {
+  if (args.no_volume && args.isosurfaces.empty() && args.intervals.empty())
+    throw Error("--no-volume leaves nothing to see; add an --iso or an --interval");
+  Classification classification = scene.classification();
+  const ScalarField& field = scene.field();
+  auto warn_outside = [&](const std::string& what, float low, float high) {
+    if (high < field.low || low > field.high)
+      console.say(fmt::format("{} is outside of '{}', which runs from {:g} to {:g}", what,
+                              field.name, field.low, field.high));
+  };
+  for (const std::string& text : args.isosurfaces) {
+    classification.isosurfaces.push_back(parse_isosurface(text, scene.transfer_function()));
+    const float value = classification.isosurfaces.back().value;
+    warn_outside("--iso " + text, value, value);
+  }
+  for (const std::string& text : args.intervals) {
+    classification.intervals.push_back(parse_interval(text, scene.transfer_function()));
+    warn_outside("--interval " + text, classification.intervals.back().low,
+                 classification.intervals.back().high);
+  }
+  if (args.no_volume) classification.volume.reset();
+  scene.set_classification(std::move(classification));
 }
 
 Camera choose_camera(const Bounds& bounds, const RenderArguments& args, double aspect_ratio) {
@@ -177,6 +205,7 @@ void run(const RenderArguments& args) {
   }();
   mesh.reset();  // the scene needs it no more
   choose_transfer_function(scene, args, console);
+  choose_classification(scene, args, console);
   const double ms_build = watch.lap();
   const ScalarField& field = scene.field();
   console.say(fmt::format("{}: {} cells, coloured by '{}' ({}, {:g} to {:g})", args.mesh,
@@ -193,6 +222,7 @@ void run(const RenderArguments& args) {
   settings.mode = chosen(kModes, args.mode);
   settings.integrator.kind = chosen(kIntegrators, args.integrator);
   settings.integrator.samples = args.samples;
+  settings.interval_form = chosen(kIntervalForms, args.interval_form);
   settings.order = chosen(kOrders, args.order);
   settings.early_termination = args.early_termination;
   settings.threads = args.threads;
@@ -228,6 +258,8 @@ void run(const RenderArguments& args) {
         {"entries", statistics.entries},
         {"cells_visited", statistics.cells_visited},
         {"lost_rays", statistics.lost_rays},
+        {"isosurfaces_crossed", statistics.surfaces},
+        {"interval_visits", statistics.visits},
         {"ms",
          {{"read", ms_read}, {"build", ms_build}, {"render", ms_render}, {"write", ms_write}}},
         {"peak_memory_bytes", peak_memory_bytes()},
@@ -295,6 +327,21 @@ void add_render(CLI::App& app) {
       ->add_option("--unit-distance", args->unit_distance,
                    "World length over which opacity applies (a tenth of the mesh's diagonal)")
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--iso", args->isosurfaces,
+                   "An isosurface: VALUE[:OPACITY[:R,G,B]]; opaque, of the colour map's colour "
+                   "unless said (repeatable)")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--interval", args->intervals,
+                   "All between two values, as opaque however thick it is: "
+                   "LOW,HIGH[:OPACITY[:R,G,B]] (repeatable; opacity 0.5)")
+      ->allow_extra_args(false);
+  command->add_flag("--no-volume", args->no_volume, "Isosurfaces and intervals alone");
+  command
+      ->add_option("--interval-form", args->interval_form,
+                   "Opacity of intervals: exponential or linear (exponential)")
+      ->check(CLI::IsMember(names_of(kIntervalForms)));
   command->add_option("--mode", args->mode, "volume, mip, integral or depth (volume)")
       ->check(CLI::IsMember(names_of(kModes)));
   command->add_option("--integrator", args->integrator, "closed-form, table or midpoint")
@@ -312,7 +359,7 @@ void add_render(CLI::App& app) {
       ->check(CLI::Range(0.0, 0.999));
   command
       ->add_option("--channels", args->channels,
-                   "More channels in an EXR: depth,optical_depth,cell_id,cell_count")
+                   "More channels in an EXR: depth,optical_depth,cell_id,cell_count,isovalue")
       ->delimiter(',');
   command->add_option("--bits", args->bits, "Bits a channel of a PNG: 8 or 16")
       ->check(CLI::IsMember({8, 16}));

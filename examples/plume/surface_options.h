@@ -1,0 +1,21 @@
+/// Isosurfaces, intervals, light and clip planes on the command line.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plume/lib/plume.h"
+#include "plume/preint/classification.h"
+
+namespace plume::command {
+
+/// "VALUE[:OPACITY[:R,G,B]]": opaque and of the transfer function's colour for the value unless
+/// said otherwise. R, G, B are display values, 0 to 1. Throws Error, naming the text.
+Isosurface parse_isosurface(const std::string& text, const TransferFunction& colors);
+
+/// "LOW,HIGH[:OPACITY[:R,G,B]]": half opaque, and of the transfer function's colours over its range
+/// unless said otherwise; opacity is spread evenly over the interval. Throws Error, naming the
+/// text.
+IntervalVolume parse_interval(const std::string& text, const TransferFunction& colors);
+
+}  // namespace plume::command
