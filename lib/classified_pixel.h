@@ -63,18 +63,19 @@ class ClassifiedPixel {
     const double length = segment.t_out - segment.t_in;
     if (segment.order == ScalarOrder::linear)
       return state_.add(segment.s_in, segment.s_out, [&](const ClassifiedPart& part) {
-        return add(part, segment.cell, length, segment.t_in + part.share_from * length);
+        return add(part, segment.cell, segment.s_in, length,
+                   segment.t_in + part.share_from * length);
       });
     const ScalarPolynomial polynomial = polynomial_of(segment);
-    return polynomial.for_each_linear_piece(
-        settings_.tolerance, [&](double u_in, double u_out, float s_in, float s_out) {
-          return state_.add(s_in, s_out, [&](const ClassifiedPart& part) {
-            const bool at_value = part.kind == ClassifiedPart::Kind::surface;
-            const double u = at_value ? polynomial.place_of(part.from, u_in, u_out)
-                                      : u_in + part.share_from * (u_out - u_in);
-            return add(part, segment.cell, (u_out - u_in) * length, segment.t_in + u * length);
-          });
-        });
+    return polynomial.for_each_linear_piece(settings_.tolerance, [&](double u_in, double u_out,
+                                                                     float s_in, float s_out) {
+      return state_.add(s_in, s_out, [&](const ClassifiedPart& part) {
+        const bool at_value = part.kind == ClassifiedPart::Kind::surface;
+        const double u = at_value ? polynomial.place_of(part.from, u_in, u_out)
+                                  : u_in + part.share_from * (u_out - u_in);
+        return add(part, segment.cell, s_in, (u_out - u_in) * length, segment.t_in + u * length);
+      });
+    });
   }
 
   Compositor compositor;
@@ -86,12 +87,12 @@ class ClassifiedPixel {
   std::uint64_t visits = 0;    ///< to intervals
 
  private:
-  // `length` is that of the piece of which the part is one, t where the part begins.
-  bool add(const ClassifiedPart& part, std::uint32_t cell, double length, double t) {
+  // The piece of which the part is one begins at s_in and has that length; the part begins at t.
+  bool add(const ClassifiedPart& part, std::uint32_t cell, float s_in, double length, double t) {
     if (settings_.whole_ray) optical_depth += optics_.optical_depth(part, length, volume_);
     SegmentColor color = optics_.color(part, length, volume_);
     if (part.kind != ClassifiedPart::Kind::volume) {
-      const SurfaceHit hit{t, cell, scalar_of(part)};
+      const SurfaceHit hit{t, cell, part.clipped ? s_in : scalar_of(part)};
       if (color.alpha > 0 && !first.is_one()) first = hit;
       color = shaded(part, hit, color);
       if (settings_.first_hit_only && first.is_one()) return false;

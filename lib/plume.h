@@ -2,6 +2,7 @@
 #pragma once
 
 #include "plume/lib/camera.h"
+#include "plume/lib/clip.h"
 #include "plume/lib/color_map.h"
 #include "plume/lib/image.h"
 #include "plume/lib/render.h"

@@ -64,6 +64,8 @@ void check(const Scene& scene, const RenderSettings& settings) {
   if (!(settings.early_termination >= 0 && settings.early_termination < 1))
     throw Error(fmt::format("early termination at {}: it must be at least 0 and below 1",
                             settings.early_termination));
+  for (const ClipPlane& plane : settings.clip_planes)
+    if (const auto problem = problem_of(plane)) throw Error(*problem);
   if (settings.threads < 0)
     throw Error(fmt::format("{} threads: it must be 1 or more, or 0 for all", settings.threads));
   if (settings.integrator.samples < 1)
@@ -175,13 +177,14 @@ class Frame {
     });
   }
 
-  // Whether packets can render this frame: linear segments, nothing but a volume, closed form, no
-  // further channels.
+  // Whether packets can render this frame: linear segments, nothing but a volume, whole rays,
+  // closed form, no further channels.
   bool by_packets() const {
     const bool linear = settings_.order == ScalarOrder::linear ||
                         scene_.field().association == Association::cell ||
                         std::string(scene_.form()) == "tetrahedra";
-    return linear && !classified_ && !settings_.scalar_twin && settings_.mode == Mode::volume &&
+    return linear && !classified_ && settings_.clip_planes.empty() && !settings_.scalar_twin &&
+           settings_.mode == Mode::volume &&
            settings_.integrator.kind == IntegratorKind::closed_form && settings_.channels.empty();
   }
 
@@ -239,6 +242,13 @@ class Frame {
     return result;
   }
 
+  // Hands the segments of what clip planes keep of a ray to `visit`.
+  template <class Walkable, class Visit>
+  TraceResult trace_clipped(const Walkable& walkable, Ray ray, Visit&& visit) const {
+    if (!clip(ray, settings_.clip_planes)) return {};
+    return trace(walkable.mesh, walkable.boundary, ray, visit, settings_.order);
+  }
+
   // A pixel of a scene with intervals or isosurfaces.
   template <class Walkable, class Integrator>
   TraceResult classify_pixel(const Walkable& walkable, const Integrator& integrator, const Ray& ray,
@@ -249,7 +259,7 @@ class Frame {
         optics_, integrator, shade,
         {settings_.early_termination, tolerance_, kGap * scene_.bounds().diagonal(), false,
          depth_alone && !whole_rays(), whole_rays()});
-    const TraceResult result = trace(walkable.mesh, walkable.boundary, ray, pixel, settings_.order);
+    const TraceResult result = trace_clipped(walkable, ray, pixel);
     counts.surfaces += pixel.surfaces;
     counts.visits += pixel.visits;
     float* rgba = &image_.rgba[4 * index];
@@ -283,7 +293,7 @@ class Frame {
         if (more) more = pixel(segment);
         return more || go_on;
       };
-      return trace(walkable.mesh, walkable.boundary, ray, visit, settings_.order);
+      return trace_clipped(walkable, ray, visit);
     };
     float* rgba = &image_.rgba[4 * index];
     TraceResult result;
@@ -409,6 +419,8 @@ std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings&
                                  ? "constant in each cell, as the field is cell-centred"
                              : form == "tetrahedra" ? "linear between a cell's faces"
                                                     : describe_order(settings.order)));
+  if (!settings.clip_planes.empty())
+    plan.push_back(fmt::format("clip planes: {}, where rays are cut", settings.clip_planes.size()));
   switch (settings.mode) {
     case Mode::volume: {
       constexpr const char* kNames[] = {"midpoint", "table", "closed form"};
@@ -448,7 +460,8 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
     result.statistics.plan.push_back(
         frame.by_packets() ? fmt::format("rays: in packets, {}", packet_instruction_set())
                            : "rays: one by one (packets serve the volume mode by the closed form, "
-                             "at order 1, without intervals, isosurfaces and further channels)");
+                             "at order 1, without intervals, isosurfaces, clip planes and further "
+                             "channels)");
   if (frame.whole_rays() && settings.mode == Mode::volume) {
     effective.early_termination = 0;
     result.statistics.plan.push_back("early termination: off, as a channel needs whole rays");

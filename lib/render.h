@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "plume/lib/camera.h"
+#include "plume/lib/clip.h"
 #include "plume/lib/image.h"
 #include "plume/lib/scene.h"
 #include "plume/preint/integrator.h"
@@ -38,6 +39,8 @@ struct RenderSettings {
   IntegratorSettings integrator;
   /// Of interval volumes; `linear` is there to compare.
   IntervalForm interval_form = IntervalForm::exponential;
+  /// Of the mesh, only what all of these keep is seen, in every mode. A box is planes_of_box().
+  std::vector<ClipPlane> clip_planes;
   /// The polynomial that the scalar is taken for inside of cells that are not tetrahedra; see
   /// traverse/inner_scalar.h. Optics see it in linear parts that differ from it by at most 1e-4 of
   /// the field's range (see ScalarPolynomial for cells across which it bends too much for that);
