@@ -47,8 +47,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 // isosurfaces are concerned: places on the faces of blocks that touch differ by rounding, which is
 // some 1e-7 of the mesh.
 constexpr double kGap = 1e-6;
-const std::vector<std::string> kChannels{"depth", "optical_depth", "cell_id", "cell_count",
-                                         "isovalue"};
+const std::vector<std::string> kChannels{"depth",      "optical_depth", "cell_id",
+                                         "cell_count", "isovalue",      "normal"};
 
 // Whether the picture shows more than a volume.
 bool is_classified(const Scene& scene, const RenderSettings& settings) {
@@ -78,11 +78,18 @@ void check(const Scene& scene, const RenderSettings& settings) {
       throw Error(
           fmt::format("no channel '{}'; there are: {}", channel, fmt::join(kChannels, " ")));
   for (const std::string& channel : settings.channels)
-    if (channel == "isovalue" && !is_classified(scene, settings))
+    if ((channel == "isovalue" || channel == "normal") && !is_classified(scene, settings))
       throw Error(fmt::format(
           "channel '{}': it is of isosurfaces and intervals, in the modes volume and depth; give "
           "the scene's classification one",
           channel));
+  const bool normals = std::count(settings.channels.begin(), settings.channels.end(), "normal") > 0;
+  if ((settings.lighting || normals) && !scene.has_gradients())
+    throw Error(fmt::format("{} the scene keeps no gradients; set SceneOptions::keep_gradients",
+                            settings.lighting ? "light:" : "channel 'normal':"));
+  if (settings.lighting)
+    if (const auto problem = settings.lighting->problem())
+      throw Error(fmt::format("light: {}", *problem));
 }
 
 struct Counts {
@@ -109,7 +116,14 @@ class Frame {
     image_.width = settings.width;
     image_.height = settings.height;
     image_.rgba.assign(4 * pixels(), 0);
-    for (const std::string& name : settings.channels) channel_place(name);
+    for (const std::string& name : settings.channels) {
+      if (name != "normal") {
+        channel_place(name);
+        continue;
+      }
+      for (const char* component : {"normal.x", "normal.y", "normal.z"})
+        normal_.push_back(channel_place(component));
+    }
     if (settings.mode == Mode::maximum) raw_ = channel_place("maximum");
     if (settings.mode == Mode::integral) raw_ = channel_place("integral");
     if (settings.mode == Mode::depth) raw_ = channel_place("depth");
@@ -254,11 +268,20 @@ class Frame {
   TraceResult classify_pixel(const Walkable& walkable, const Integrator& integrator, const Ray& ray,
                              std::size_t index, Counts& counts) {
     const bool depth_alone = settings_.mode == Mode::depth;
-    auto shade = [](const SurfaceHit&) { return Shading{}; };
+    auto gradient_at = [&](const SurfaceHit& hit) {
+      std::array<double, 3> place;
+      for (std::size_t a = 0; a < 3; ++a) place[a] = ray.origin[a] + hit.t * ray.direction[a];
+      return scene_.body().gradients->at(walkable.mesh, hit.cell, place);
+    };
+    auto shade = [&](const SurfaceHit& hit) {
+      return settings_.lighting ? shading_of(*settings_.lighting, gradient_at(hit), ray.direction)
+                                : Shading{};
+    };
     ClassifiedPixel pixel(
         optics_, integrator, shade,
-        {settings_.early_termination, tolerance_, kGap * scene_.bounds().diagonal(), false,
-         depth_alone && !whole_rays(), whole_rays()});
+        {settings_.early_termination, tolerance_, kGap * scene_.bounds().diagonal(),
+         settings_.lighting && settings_.lighting->intervals, depth_alone && !whole_rays(),
+         whole_rays()});
     const TraceResult result = trace_clipped(walkable, ray, pixel);
     counts.surfaces += pixel.surfaces;
     counts.visits += pixel.visits;
@@ -278,6 +301,13 @@ class Frame {
     put(cell_count_, static_cast<double>(pixel.cells));
     put(cell_id_, pixel.first.is_one() ? walkable.mesh.original_cell(pixel.first.cell) : -1.0);
     put(isovalue_, pixel.first.scalar);
+    if (!normal_.empty()) {
+      const double nan = std::numeric_limits<double>::quiet_NaN();
+      const auto gradient =
+          pixel.first.is_one() ? gradient_at(pixel.first) : std::array<double, 3>{nan, nan, nan};
+      const double length = std::hypot(gradient[0], gradient[1], gradient[2]);
+      for (std::size_t a = 0; a < 3; ++a) put(normal_[a], gradient[a] / length);
+    }
     return result;
   }
 
@@ -344,6 +374,7 @@ class Frame {
   double tolerance_;  // of the linear parts of segments, in the field's unit
   Image image_;
   std::optional<std::size_t> raw_, depth_, optical_depth_, cell_id_, cell_count_, isovalue_;
+  std::vector<std::size_t> normal_;  // x, y and z, or none
 };
 
 // Calls the user's progress function with growing shares, one thread at a time.
@@ -444,6 +475,12 @@ std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings&
       break;
   }
   if (is_classified(scene, settings)) describe_surfaces(scene, settings, plan);
+  if (settings.lighting)
+    plan.push_back(is_classified(scene, settings)
+                       ? fmt::format("light: {} on isosurfaces{}, by gradients at the points",
+                                     settings.lighting->lights.size(),
+                                     settings.lighting->intervals ? " and intervals" : "")
+                       : "light: nothing to light, as there are no isosurfaces and intervals");
   return plan;
 }
 

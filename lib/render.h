@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "plume/lib/clip.h"
 #include "plume/lib/image.h"
 #include "plume/lib/scene.h"
+#include "plume/lib/shading.h"
 #include "plume/preint/integrator.h"
 #include "plume/preint/interval_optics.h"
 
@@ -39,6 +41,9 @@ struct RenderSettings {
   IntegratorSettings integrator;
   /// Of interval volumes; `linear` is there to compare.
   IntervalForm interval_form = IntervalForm::exponential;
+  /// Light on isosurfaces and, where it says so, intervals; none by default. Needs a scene that
+  /// keeps gradients (SceneOptions::keep_gradients).
+  std::optional<Lighting> lighting;
   /// Of the mesh, only what all of these keep is seen, in every mode. A box is planes_of_box().
   std::vector<ClipPlane> clip_planes;
   /// The polynomial that the scalar is taken for inside of cells that are not tetrahedra; see
@@ -59,7 +64,9 @@ struct RenderSettings {
   /// count need whole rays, so early termination is off where one of them is asked for.
   ///
   /// With intervals or isosurfaces, depth and cell are those of the first hit: the first of these
-  /// that is not transparent. "isovalue" is the scalar there, NaN where there is no hit.
+  /// that is not transparent. "isovalue" is the scalar there, and "normal" (three channels,
+  /// "normal.x" and so on) the direction in which it rises, of length one, in a scene that keeps
+  /// gradients; NaN where there is no hit.
   std::vector<std::string> channels;
 };
 

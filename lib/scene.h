@@ -32,6 +32,9 @@ struct SceneOptions {
   bool keep_cell_numbers = false;
   /// Read where the field is cell-centred.
   CellData cell_data = CellData::constant;
+  /// Compute and keep the field's gradients at the points, 12 bytes each; needed for light and for
+  /// the channel "normal". The field must be on points, or averaged to them.
+  bool keep_gradients = false;
 };
 
 /// Immutable but for the classification; safe to render from several threads.
@@ -62,6 +65,8 @@ class Scene {
   std::size_t connected_part_count() const;
   /// Bytes of the walkable form, the boundary's hierarchy not included.
   std::size_t bytes() const;
+  /// Whether keep_gradients was set.
+  bool has_gradients() const;
 
   /// The colour map fitted to the field's values: "turbo" from the 1st to the 99th percentile,
   /// the more opaque the rarer a value is.

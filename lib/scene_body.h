@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <variant>
 
+#include "plume/lib/gradient_field.h"
 #include "plume/lib/scene.h"
 #include "plume/traverse/trace.h"
 #include "plume/traverse/trace_rectilinear.h"
@@ -35,6 +37,7 @@ struct Scene::Body {
   double unit_distance = 1;
   TransferFunction transfer_function;
   Classification classification;
+  std::optional<GradientField> gradients;
 };
 
 }  // namespace plume

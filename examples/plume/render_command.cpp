@@ -27,7 +27,8 @@ struct RenderArguments {
   std::string integrator = "closed-form", order = "1", cell_data = "constant", background = "white",
               stats;
   std::string interval_form = "exponential";
-  std::vector<std::string> channels, isosurfaces, intervals;
+  std::vector<std::string> channels, isosurfaces, intervals, lights, clip_planes;
+  std::string material;
   double azimuth = 0, elevation = 0, zoom = 1, opacity_scale = 1, view_angle = 0;
   double unit_distance = 0, early_termination = RenderSettings{}.early_termination;
   int time_step = -1, samples = 1, threads = 0, bits = 8;
@@ -107,6 +108,38 @@ void choose_transfer_function(Scene& scene, const RenderArguments& args, const C
   scene.set_transfer_function(to_transfer_function(map, unit, args.opacity_scale));
 }
 
+// Light and clip planes need no mesh: what is wrong with them is said before a long read.
+void choose_light_and_clip(const RenderArguments& args, RenderSettings& settings) {
+  for (const std::string& text : args.clip_planes)
+    settings.clip_planes.push_back(parse_clip_plane(text));
+  if (args.lights.empty()) {
+    if (!args.material.empty())
+      throw Error(
+          fmt::format("--material '{}': there is no light; add --light head", args.material));
+    return;
+  }
+  if (args.isosurfaces.empty() && args.intervals.empty())
+    throw Error(fmt::format("--light '{}': there is nothing to light; add an --iso or --interval",
+                            args.lights[0]));
+  Lighting lighting;
+  lighting.lights.clear();
+  for (const std::string& text : args.lights) lighting.lights.push_back(parse_light(text));
+  if (!args.material.empty()) {
+    const auto n = parse_numbers("--material", args.material, {4});
+    lighting.ambient = n[0];
+    lighting.diffuse = n[1];
+    lighting.specular = n[2];
+    lighting.exponent = n[3];
+    if (const auto problem = lighting.problem())
+      throw Error(fmt::format("--material '{}': {}", args.material, *problem));
+  }
+  settings.lighting = lighting;
+}
+
+bool asks_for(const std::vector<std::string>& channels, const char* name) {
+  return std::find(channels.begin(), channels.end(), name) != channels.end();
+}
+
 void choose_classification(Scene& scene, const RenderArguments& args, const Console& console) {
   if (args.no_volume && args.isosurfaces.empty() && args.intervals.empty())
     throw Error("--no-volume leaves nothing to see; add an --iso or an --interval");
@@ -176,6 +209,8 @@ void run(const RenderArguments& args) {
   choose_background(args.background, file_options);
   check_image_path(args.output);
   if (!args.stats.empty()) check_writable(args.stats);
+  RenderSettings settings;
+  choose_light_and_clip(args, settings);
   const double aspect_ratio = static_cast<double>(size.width) / size.height;
   // What can be wrong with a camera shows with any bounds: said now, not after a long read.
   PixelRays(choose_camera({{0, 0, 0}, {1, 1, 1}}, args, aspect_ratio), size.width, size.height);
@@ -194,8 +229,8 @@ void run(const RenderArguments& args) {
   if (args.association == "point") scene_options.field.association = Association::point;
   if (args.association == "cell") scene_options.field.association = Association::cell;
   scene_options.cell_data = chosen(kCellData, args.cell_data);
-  scene_options.keep_cell_numbers =
-      std::find(args.channels.begin(), args.channels.end(), "cell_id") != args.channels.end();
+  scene_options.keep_cell_numbers = asks_for(args.channels, "cell_id");
+  scene_options.keep_gradients = settings.lighting || asks_for(args.channels, "normal");
   auto scene = [&] {
     try {
       return Scene(*mesh, scene_options);
@@ -216,7 +251,6 @@ void run(const RenderArguments& args) {
                           field.low, field.high));
   for (const Finding& finding : scene.findings()) console.say(describe(finding));
 
-  RenderSettings settings;
   settings.width = size.width;
   settings.height = size.height;
   settings.mode = chosen(kModes, args.mode);
@@ -337,6 +371,18 @@ void add_render(CLI::App& app) {
                    "All between two values, as opaque however thick it is: "
                    "LOW,HIGH[:OPACITY[:R,G,B]] (repeatable; opacity 0.5)")
       ->allow_extra_args(false);
+  command
+      ->add_option("--light", args->lights,
+                   "Light on isosurfaces and intervals: head, or X,Y,Z towards the light, and "
+                   ":INTENSITY (repeatable)")
+      ->allow_extra_args(false);
+  command->add_option("--material", args->material,
+                      "Of what is lit: AMBIENT,DIFFUSE,SPECULAR,EXPONENT (0.2,0.8,0.25,30)");
+  command
+      ->add_option("--clip", args->clip_planes,
+                   "Keep one side of a plane: X,Y,Z,NX,NY,NZ, the normal points to what is kept "
+                   "(repeatable)")
+      ->allow_extra_args(false);
   command->add_flag("--no-volume", args->no_volume, "Isosurfaces and intervals alone");
   command
       ->add_option("--interval-form", args->interval_form,
@@ -359,7 +405,8 @@ void add_render(CLI::App& app) {
       ->check(CLI::Range(0.0, 0.999));
   command
       ->add_option("--channels", args->channels,
-                   "More channels in an EXR: depth,optical_depth,cell_id,cell_count,isovalue")
+                   "More channels in an EXR: depth,optical_depth,cell_id,cell_count,isovalue,"
+                   "normal")
       ->delimiter(',');
   command->add_option("--bits", args->bits, "Bits a channel of a PNG: 8 or 16")
       ->check(CLI::IsMember({8, 16}));

@@ -98,4 +98,28 @@ IntervalVolume parse_interval(const std::string& text, const TransferFunction& c
   return interval;
 }
 
+Light parse_light(const std::string& text) {
+  const Parts parts("--light", text, "head or X,Y,Z, and :INTENSITY if wanted, such as 1,0,2:0.5",
+                    2);
+  Light light;
+  if (parts.parts[0] != "head") {
+    const auto n = parts.numbers(0, 3);
+    light.direction = {n[0], n[1], n[2]};
+  }
+  if (parts.parts.size() > 1) light.intensity = parts.numbers(1, 1)[0];
+  Lighting lighting;
+  lighting.lights = {light};
+  if (const auto problem = lighting.problem())
+    throw Error(fmt::format("--light '{}': {}", text, *problem));
+  return light;
+}
+
+ClipPlane parse_clip_plane(const std::string& text) {
+  const auto n = parse_numbers("--clip", text, {6});
+  const ClipPlane plane{{n[0], n[1], n[2]}, {n[3], n[4], n[5]}};
+  if (const auto problem = problem_of(plane))
+    throw Error(fmt::format("--clip '{}': {}", text, *problem));
+  return plane;
+}
+
 }  // namespace plume::command
