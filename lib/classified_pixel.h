@@ -43,8 +43,9 @@ struct ClassifiedPixelSettings {
 /// shading throughout: the interval is lit as its surface is. Cut faces are not asked for: a cut is
 /// no surface of the field.
 ///
-/// Segments of order 2 and 3 are taken in linear parts, as by VolumePixel; but where an isosurface
-/// lies on them is found on the polynomial itself (ScalarPolynomial::place_of).
+/// Segments of order 2 and 3 are taken in linear parts, as by VolumePixel; but where they cross
+/// an isosurface or come into an interval is found on the polynomial itself
+/// (ScalarPolynomial::place_of).
 template <class Integrator, class Shade>
 class ClassifiedPixel {
  public:
@@ -70,9 +71,8 @@ class ClassifiedPixel {
     return polynomial.for_each_linear_piece(settings_.tolerance, [&](double u_in, double u_out,
                                                                      float s_in, float s_out) {
       return state_.add(s_in, s_out, [&](const ClassifiedPart& part) {
-        const bool at_value = part.kind == ClassifiedPart::Kind::surface;
-        const double u = at_value ? polynomial.place_of(part.from, u_in, u_out)
-                                  : u_in + part.share_from * (u_out - u_in);
+        const double u = begins_at_value(part) ? polynomial.place_of(scalar_of(part), u_in, u_out)
+                                               : u_in + part.share_from * (u_out - u_in);
         return add(part, segment.cell, s_in, (u_out - u_in) * length, segment.t_in + u * length);
       });
     });
@@ -99,6 +99,11 @@ class ClassifiedPixel {
     }
     compositor.add(color);
     return settings_.whole_ray || !compositor.opaque(settings_.early_termination);
+  }
+
+  // Whether a part begins where the ray crosses an isosurface or the end of an interval.
+  static bool begins_at_value(const ClassifiedPart& part) {
+    return part.kind == ClassifiedPart::Kind::surface || (part.first_of_visit && !part.clipped);
   }
 
   float scalar_of(const ClassifiedPart& part) const {

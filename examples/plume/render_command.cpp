@@ -28,7 +28,7 @@ struct RenderArguments {
               stats;
   std::string interval_form = "exponential";
   std::vector<std::string> channels, isosurfaces, intervals, lights, clip_planes;
-  std::string material;
+  std::string material, clip_box;
   double azimuth = 0, elevation = 0, zoom = 1, opacity_scale = 1, view_angle = 0;
   double unit_distance = 0, early_termination = RenderSettings{}.early_termination;
   int time_step = -1, samples = 1, threads = 0, bits = 8;
@@ -108,17 +108,31 @@ void choose_transfer_function(Scene& scene, const RenderArguments& args, const C
   scene.set_transfer_function(to_transfer_function(map, unit, args.opacity_scale));
 }
 
+bool asks_for(const std::vector<std::string>& channels, const char* name) {
+  return std::find(channels.begin(), channels.end(), name) != channels.end();
+}
+
 // Light and clip planes need no mesh: what is wrong with them is said before a long read.
 void choose_light_and_clip(const RenderArguments& args, RenderSettings& settings) {
+  const bool surfaces = !args.isosurfaces.empty() || !args.intervals.empty();
+  for (const char* channel : {"isovalue", "normal"})
+    if (asks_for(args.channels, channel) && !surfaces)
+      throw Error(
+          fmt::format("--channels {}: it is of isosurfaces and intervals; add an --iso or "
+                      "an --interval",
+                      channel));
   for (const std::string& text : args.clip_planes)
     settings.clip_planes.push_back(parse_clip_plane(text));
+  if (!args.clip_box.empty())
+    for (const ClipPlane& plane : parse_clip_box(args.clip_box))
+      settings.clip_planes.push_back(plane);
   if (args.lights.empty()) {
     if (!args.material.empty())
       throw Error(
           fmt::format("--material '{}': there is no light; add --light head", args.material));
     return;
   }
-  if (args.isosurfaces.empty() && args.intervals.empty())
+  if (!surfaces)
     throw Error(fmt::format("--light '{}': there is nothing to light; add an --iso or --interval",
                             args.lights[0]));
   Lighting lighting;
@@ -134,10 +148,6 @@ void choose_light_and_clip(const RenderArguments& args, RenderSettings& settings
       throw Error(fmt::format("--material '{}': {}", args.material, *problem));
   }
   settings.lighting = lighting;
-}
-
-bool asks_for(const std::vector<std::string>& channels, const char* name) {
-  return std::find(channels.begin(), channels.end(), name) != channels.end();
 }
 
 void choose_classification(Scene& scene, const RenderArguments& args, const Console& console) {
@@ -383,6 +393,8 @@ void add_render(CLI::App& app) {
                    "Keep one side of a plane: X,Y,Z,NX,NY,NZ, the normal points to what is kept "
                    "(repeatable)")
       ->allow_extra_args(false);
+  command->add_option("--clip-box", args->clip_box,
+                      "Keep what is inside of a box: X0,Y0,Z0,X1,Y1,Z1");
   command->add_flag("--no-volume", args->no_volume, "Isosurfaces and intervals alone");
   command
       ->add_option("--interval-form", args->interval_form,

@@ -122,4 +122,13 @@ ClipPlane parse_clip_plane(const std::string& text) {
   return plane;
 }
 
+std::vector<ClipPlane> parse_clip_box(const std::string& text) {
+  const auto n = parse_numbers("--clip-box", text, {6});
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!(n[axis] < n[axis + 3]))
+      throw Error(fmt::format("--clip-box '{}': {:g} to {:g} is no width; low corner first", text,
+                              n[axis], n[axis + 3]));
+  return planes_of_box({{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
+}
+
 }  // namespace plume::command

@@ -18,12 +18,16 @@ Isosurface parse_isosurface(const std::string& text, const TransferFunction& col
 /// text.
 IntervalVolume parse_interval(const std::string& text, const TransferFunction& colors);
 
-/// "head[:INTENSITY]", or "X,Y,Z[:INTENSITY]" of the direction towards a light. Throws Error, naming
-/// the text.
+/// "head[:INTENSITY]", or "X,Y,Z[:INTENSITY]" of the direction towards a light. Throws Error,
+/// naming the text.
 Light parse_light(const std::string& text);
 
 /// "X,Y,Z,NX,NY,NZ": a point of the plane, and the normal, which points to what is kept. Throws
 /// Error, naming the text.
 ClipPlane parse_clip_plane(const std::string& text);
+
+/// "X0,Y0,Z0,X1,Y1,Z1": the planes of a box from its low to its high corner. Throws Error, naming
+/// the text.
+std::vector<ClipPlane> parse_clip_box(const std::string& text);
 
 }  // namespace plume::command

@@ -246,6 +246,26 @@ TEST(TwoCells, AFullyCrossedIntervalHasOneOpacityHoweverNear) {
     }
 }
 
+TEST(TwoCells, IsosurfacesHaveOneOpacityEach) {
+  TwoCells cells(1.5);
+  cells.camera.parallel_scale = 0.4;
+  Scene scene(cells.mesh);
+  Classification surfaces;
+  std::vector<TransferFunction::Knot> peaks;  // the same as sharp peaks of a volume
+  for (const float value : {0.3f, 0.4f, 0.5f, 0.6f}) {
+    surfaces.isosurfaces.push_back({value, 0.3f, {0, 1, 0}});
+    peaks.push_back({value - 0.005f, {0, {0, 1, 0}}});
+    peaks.push_back({value, {70, {0, 1, 0}}});
+    peaks.push_back({value + 0.005f, {0, {0, 1, 0}}});
+  }
+  scene.set_classification(surfaces);
+  const Range ours = alphas(render(scene, cells.camera, exact(256)).image);
+  EXPECT_LT(ours.width(), 1e-6);
+  EXPECT_NEAR(ours.low, 1 - std::pow(0.7, 4), 1e-6);
+  scene.set_classification({TransferFunction{peaks}, {}, {}});
+  EXPECT_GT(alphas(render(scene, cells.camera, exact(256)).image).width(), 0.1);
+}
+
 // Along a row of pixels across the border: the second difference of what is seen.
 double bend_of(const Image& image) {
   double worst = 0;
