@@ -176,6 +176,33 @@ TEST(Intervals, BlocksThatTouchShowNoSeam) {
   for (std::size_t i = 0; i < 64 * 64; ++i) ASSERT_LE(result.image.rgba[4 * i + 3], 0.5f + 1e-5f);
 }
 
+// Two cells with points of their own, apart by what seven digits in a file leave, or by more.
+TEST(Intervals, AGapOfRoundingIsNone) {
+  for (const auto& [gap, seen_twice] : {std::pair{0.0, false}, {2e-7, false}, {1e-3, true}}) {
+    Mesh mesh;
+    std::vector<double> points;
+    for (const double x : {0.0, 1.0, 1.0 + gap, 2.0})
+      for (const auto& [y, z] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+        points.insert(points.end(), {x, 1.0 * y, 1.0 * z});
+    mesh.points = Array::own(std::move(points));
+    mesh.cells.types = Array::own(std::vector<std::uint8_t>{12});
+    mesh.cells.connectivity =
+        Array::own(std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15});
+    Scene scene(with(std::move(mesh), [](const Point& p) { return p[0]; }));
+    scene.set_classification({{}, {{0.5f, 1.5f, even_profile(0.5f, {1, 1, 1})}}, {}});
+    Camera camera = named_view("+x", scene.bounds());
+    camera.parallel = true;
+    camera.parallel_scale = 0.4;
+    const RenderResult result = render(scene, camera, exact(16));
+    EXPECT_EQ(result.statistics.entries, 2 * result.statistics.rays_hit);
+    for (std::size_t i = 0; i < 16 * 16; ++i) {
+      // Beyond a gap begins a cut face, which shows the interval whole, after half of it.
+      const double expected = seen_twice ? 1 - std::sqrt(0.5) * 0.5 : 0.5;
+      ASSERT_NEAR(result.image.rgba[4 * i + 3], expected, 1e-5) << gap;
+    }
+  }
+}
+
 // The paper's figures 6 and 7: two cells, seen from very near, a linear field in each whose
 // gradient bends where they meet.
 struct TwoCells {
