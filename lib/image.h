@@ -21,7 +21,8 @@ struct Image {
   std::vector<float> rgba;
   /// What was asked for besides: "depth" (distance along the ray to the first contribution,
   /// +infinity where there is none), "optical_depth", "cell_id" (the first cell that contributes,
-  /// -1 where there is none), "cell_count", ... each of width * height values.
+  /// -1 where there is none), "cell_count", "isovalue", "normal.x", ... each of width * height
+  /// values; see RenderSettings::channels.
   std::vector<Channel> channels;
 
   const float* pixel(int x, int y) const {

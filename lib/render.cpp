@@ -16,6 +16,7 @@
 #include <optional>
 #include <type_traits>
 
+#include "plume/lib/classified_pixel.h"
 #include "plume/lib/packet_tile.h"
 #include "plume/lib/pixel.h"
 #include "plume/lib/rectilinear_tile.h"
@@ -43,9 +44,20 @@ constexpr std::array<TilePixel, kTile* kTile> kTileOrder = [] {
   return order;
 }();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
-const std::vector<std::string> kChannels{"depth", "optical_depth", "cell_id", "cell_count"};
+// Passages closer than this share of the mesh's diagonal are one, as far as intervals and
+// isosurfaces are concerned: places on the faces of blocks that touch differ by rounding, which is
+// some 1e-7 of the mesh.
+constexpr double kGap = 1e-6;
+const std::vector<std::string> kChannels{"depth",      "optical_depth", "cell_id",
+                                         "cell_count", "isovalue",      "normal"};
 
-void check(const RenderSettings& settings) {
+// Whether the picture shows more than a volume.
+bool is_classified(const Scene& scene, const RenderSettings& settings) {
+  return !scene.classification().is_plain_volume() &&
+         (settings.mode == Mode::volume || settings.mode == Mode::depth);
+}
+
+void check(const Scene& scene, const RenderSettings& settings) {
   auto in_range = [](int pixels) { return pixels >= 1 && pixels <= 65536; };
   if (!in_range(settings.width) || !in_range(settings.height))
     throw Error(fmt::format("a picture of {}x{} pixels: each side must be 1 to 65536",
@@ -53,6 +65,8 @@ void check(const RenderSettings& settings) {
   if (!(settings.early_termination >= 0 && settings.early_termination < 1))
     throw Error(fmt::format("early termination at {}: it must be at least 0 and below 1",
                             settings.early_termination));
+  for (const ClipPlane& plane : settings.clip_planes)
+    if (const auto problem = problem_of(plane)) throw Error(*problem);
   if (settings.threads < 0)
     throw Error(fmt::format("{} threads: it must be 1 or more, or 0 for all", settings.threads));
   if (settings.integrator.samples < 1)
@@ -64,10 +78,23 @@ void check(const RenderSettings& settings) {
     if (std::find(kChannels.begin(), kChannels.end(), channel) == kChannels.end())
       throw Error(
           fmt::format("no channel '{}'; there are: {}", channel, fmt::join(kChannels, " ")));
+  for (const std::string& channel : settings.channels)
+    if ((channel == "isovalue" || channel == "normal") && !is_classified(scene, settings))
+      throw Error(fmt::format(
+          "channel '{}': it is of isosurfaces and intervals, in the modes volume and depth; give "
+          "the scene's classification one",
+          channel));
+  const bool normals = std::count(settings.channels.begin(), settings.channels.end(), "normal") > 0;
+  if ((settings.lighting || normals) && !scene.has_gradients())
+    throw Error(fmt::format("{} the scene keeps no gradients; set SceneOptions::keep_gradients",
+                            settings.lighting ? "light:" : "channel 'normal':"));
+  if (settings.lighting)
+    if (const auto problem = settings.lighting->problem())
+      throw Error(fmt::format("light: {}", *problem));
 }
 
 struct Counts {
-  std::uint64_t hit = 0, entries = 0, cells = 0, lost = 0;
+  std::uint64_t hit = 0, entries = 0, cells = 0, lost = 0, surfaces = 0, visits = 0;
 
   void add(const TraceResult& trace) {
     hit += trace.entries > 0 ? 1 : 0;
@@ -98,11 +125,20 @@ class Frame {
       : scene_(scene),
         settings_(settings),
         rays_(camera, settings.width, settings.height),
+        classified_(is_classified(scene, settings)),
+        optics_(classified_ ? scene.classification() : Classification{}, settings.interval_form),
         tolerance_(1e-4 * (static_cast<double>(scene.field().high) - scene.field().low)) {
     image_.width = settings.width;
     image_.height = settings.height;
     image_.rgba.assign(4 * pixels(), 0);
-    for (const std::string& name : settings.channels) channel_place(name);
+    for (const std::string& name : settings.channels) {
+      if (name != "normal") {
+        channel_place(name);
+        continue;
+      }
+      for (const char* component : {"normal.x", "normal.y", "normal.z"})
+        normal_.push_back(channel_place(component));
+    }
     if (settings.mode == Mode::maximum) raw_ = channel_place("maximum");
     if (settings.mode == Mode::integral) raw_ = channel_place("integral");
     if (settings.mode == Mode::depth) raw_ = channel_place("depth");
@@ -110,6 +146,7 @@ class Frame {
     optical_depth_ = wanted("optical_depth");
     cell_id_ = wanted("cell_id");
     cell_count_ = wanted("cell_count");
+    isovalue_ = wanted("isovalue");
   }
 
   bool whole_rays() const { return optical_depth_ || cell_count_; }
@@ -128,7 +165,10 @@ class Frame {
         const std::size_t index =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(settings_.width) +
             static_cast<std::size_t>(x);
-        counts.add(render_pixel(walkable, integrator, rays_(x + 0.5, y + 0.5), index));
+        counts.add(
+            classified_
+                ? classify_pixel(walkable, integrator, rays_(x + 0.5, y + 0.5), index, counts)
+                : render_pixel(walkable, integrator, rays_(x + 0.5, y + 0.5), index));
       }
   }
 
@@ -166,13 +206,14 @@ class Frame {
     });
   }
 
-  // Whether packets can render this frame: linear segments, volume, closed form, nothing besides.
+  // Whether packets can render this frame: linear segments, nothing but a volume, whole rays,
+  // closed form, no further channels.
   bool by_packets() const {
     const bool linear = settings_.order == ScalarOrder::linear ||
                         scene_.field().association == Association::cell ||
                         std::string(scene_.form()) == "tetrahedra";
-    return linear && has_packets(scene_) && !settings_.scalar_twin &&
-           settings_.mode == Mode::volume &&
+    return linear && has_packets(scene_) && !classified_ && settings_.clip_planes.empty() &&
+           !settings_.scalar_twin && settings_.mode == Mode::volume &&
            settings_.integrator.kind == IntegratorKind::closed_form && settings_.channels.empty();
   }
 
@@ -230,6 +271,61 @@ class Frame {
     return result;
   }
 
+  // Hands the segments of what clip planes keep of a ray to `visit`.
+  template <class Walkable, class Visit>
+  TraceResult trace_clipped(const Walkable& walkable, Ray ray, Visit&& visit) const {
+    if (!clip(ray, settings_.clip_planes)) return {};
+    return trace(walkable.mesh, walkable.boundary, ray, visit, settings_.order);
+  }
+
+  // A pixel of a scene with intervals or isosurfaces.
+  template <class Walkable, class Integrator>
+  TraceResult classify_pixel(const Walkable& walkable, const Integrator& integrator, const Ray& ray,
+                             std::size_t index, Counts& counts) {
+    const bool depth_alone = settings_.mode == Mode::depth;
+    auto gradient_at = [&](const SurfaceHit& hit) {
+      std::array<double, 3> place;
+      for (std::size_t a = 0; a < 3; ++a) place[a] = ray.origin[a] + hit.t * ray.direction[a];
+      return scene_.body().gradients->at(walkable.mesh, hit.cell, place);
+    };
+    auto shade = [&](const SurfaceHit& hit) {
+      return settings_.lighting ? shading_of(*settings_.lighting, gradient_at(hit), ray.direction)
+                                : Shading{};
+    };
+    ClassifiedPixel pixel(
+        optics_, integrator, shade,
+        {settings_.early_termination, tolerance_, kGap * scene_.bounds().diagonal(),
+         settings_.lighting && settings_.lighting->intervals, depth_alone && !whole_rays(),
+         whole_rays()});
+    const TraceResult result = trace_clipped(walkable, ray, pixel);
+    counts.surfaces += pixel.surfaces;
+    counts.visits += pixel.visits;
+    float* rgba = &image_.rgba[4 * index];
+    if (depth_alone) {
+      image_.channels[*raw_].values[index] = static_cast<float>(pixel.first.t);
+      rgba[3] = pixel.first.is_one() ? 1.0f : 0.0f;
+    } else {
+      for (std::size_t c = 0; c < 3; ++c) rgba[c] = static_cast<float>(pixel.compositor.rgb[c]);
+      rgba[3] = static_cast<float>(pixel.compositor.alpha());
+    }
+    auto put = [&](const std::optional<std::size_t>& channel, double value) {
+      if (channel) image_.channels[*channel].values[index] = static_cast<float>(value);
+    };
+    put(depth_, pixel.first.t);
+    put(optical_depth_, pixel.optical_depth);
+    put(cell_count_, static_cast<double>(pixel.cells));
+    put(cell_id_, pixel.first.is_one() ? walkable.mesh.original_cell(pixel.first.cell) : -1.0);
+    put(isovalue_, pixel.first.scalar);
+    if (!normal_.empty()) {
+      const double nan = std::numeric_limits<double>::quiet_NaN();
+      const auto gradient =
+          pixel.first.is_one() ? gradient_at(pixel.first) : std::array<double, 3>{nan, nan, nan};
+      const double length = std::hypot(gradient[0], gradient[1], gradient[2]);
+      for (std::size_t a = 0; a < 3; ++a) put(normal_[a], gradient[a] / length);
+    }
+    return result;
+  }
+
   // Traces one ray and shades its pixel. `besides` sees every segment too; where it returns true
   // the ray goes on though the picture has seen enough.
   template <class Walkable, class Integrator, class Besides>
@@ -242,7 +338,7 @@ class Frame {
         if (more) more = pixel(segment);
         return more || go_on;
       };
-      return trace(walkable.mesh, walkable.boundary, ray, visit, settings_.order);
+      return trace_clipped(walkable, ray, visit);
     };
     float* rgba = &image_.rgba[4 * index];
     TraceResult result;
@@ -288,9 +384,12 @@ class Frame {
   const Scene& scene_;
   const RenderSettings& settings_;
   PixelRays rays_;
+  bool classified_;  // shows more than a volume, by optics_
+  ClassifiedOptics optics_;
   double tolerance_;  // of the linear parts of segments, in the field's unit
   Image image_;
-  std::optional<std::size_t> raw_, depth_, optical_depth_, cell_id_, cell_count_;
+  std::optional<std::size_t> raw_, depth_, optical_depth_, cell_id_, cell_count_, isovalue_;
+  std::vector<std::size_t> normal_;  // x, y and z, or none
 };
 
 // Calls the user's progress function with growing shares, one thread at a time.
@@ -326,6 +425,30 @@ const char* describe_order(ScalarOrder order) {
   return "linear between a cell's faces";
 }
 
+void describe_surfaces(const Scene& scene, const RenderSettings& settings,
+                       std::vector<std::string>& plan) {
+  const Classification& classification = scene.classification();
+  if (!classification.intervals.empty()) {
+    std::vector<std::string> ranges;
+    for (const IntervalVolume& interval : classification.intervals)
+      ranges.push_back(fmt::format("[{:g}, {:g}]", interval.low, interval.high));
+    plan.push_back(fmt::format(
+        "intervals: {}, split in data space, monotone along each ray, {}", fmt::join(ranges, " "),
+        settings.interval_form == IntervalForm::exponential ? "exponential" : "linear"));
+  }
+  if (!classification.isosurfaces.empty()) {
+    std::vector<std::string> values;
+    for (const Isosurface& surface : classification.isosurfaces)
+      values.push_back(fmt::format("{:g}", surface.value));
+    plan.push_back(fmt::format("isosurfaces: {}, {}", fmt::join(values, " "),
+                               settings.order == ScalarOrder::linear ||
+                                       std::string(scene.form()) == "tetrahedra" ||
+                                       scene.field().association == Association::cell
+                                   ? "in closed form"
+                                   : "by isolated roots of each cell's polynomial"));
+  }
+}
+
 std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings& settings) {
   std::vector<std::string> plan;
   const std::string form = scene.form();
@@ -342,12 +465,17 @@ std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings&
                                  ? "constant in each cell, as the field is cell-centred"
                              : form == "tetrahedra" ? "linear between a cell's faces"
                                                     : describe_order(settings.order)));
+  if (!settings.clip_planes.empty())
+    plan.push_back(fmt::format("clip planes: {}, where rays are cut", settings.clip_planes.size()));
   switch (settings.mode) {
     case Mode::volume: {
       constexpr const char* kNames[] = {"midpoint", "table", "closed form"};
-      plan.push_back(fmt::format("integrator: {} ({} knots)",
-                                 kNames[static_cast<int>(settings.integrator.kind)],
-                                 scene.transfer_function().knots.size()));
+      if (!scene.classification().volume)
+        plan.push_back("volume: none");
+      else
+        plan.push_back(fmt::format("integrator: {} ({} knots)",
+                                   kNames[static_cast<int>(settings.integrator.kind)],
+                                   scene.transfer_function().knots.size()));
       break;
     }
     case Mode::maximum:
@@ -357,9 +485,17 @@ std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings&
       plan.push_back("integral of the scalar: no optics");
       break;
     case Mode::depth:
-      plan.push_back("first contribution: optical depth alone");
+      plan.push_back(is_classified(scene, settings) ? "first hit of an isosurface or interval"
+                                                    : "first contribution: optical depth alone");
       break;
   }
+  if (is_classified(scene, settings)) describe_surfaces(scene, settings, plan);
+  if (settings.lighting)
+    plan.push_back(is_classified(scene, settings)
+                       ? fmt::format("light: {} on isosurfaces{}, by gradients at the points",
+                                     settings.lighting->lights.size(),
+                                     settings.lighting->intervals ? " and intervals" : "")
+                       : "light: nothing to light, as there are no isosurfaces and intervals");
   return plan;
 }
 
@@ -367,7 +503,7 @@ std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings&
 
 RenderResult render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                     const Progress& progress) {
-  check(settings);
+  check(scene, settings);
   RenderSettings effective = settings;
   Frame frame(scene, camera, effective);
   RenderResult result;
@@ -376,7 +512,8 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
     result.statistics.plan.push_back(
         frame.by_packets() ? fmt::format("rays: in packets, {}", packet_instruction_set())
                            : "rays: one by one (packets serve the volume mode by the closed form, "
-                             "at order 1, without further channels)");
+                             "at order 1, without intervals, isosurfaces, clip planes and further "
+                             "channels)");
   if (frame.whole_rays() && settings.mode == Mode::volume) {
     effective.early_termination = 0;
     result.statistics.plan.push_back("early termination: off, as a channel needs whole rays");
@@ -391,7 +528,8 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   tbb::enumerable_thread_specific<Counts> counts;
   const PieceTable pieces(scene.transfer_function());
   // A table is built only where the picture needs what is in it: colours.
-  if (settings.mode != Mode::volume) effective.integrator.kind = IntegratorKind::closed_form;
+  if (settings.mode != Mode::volume || !scene.classification().volume)
+    effective.integrator.kind = IntegratorKind::closed_form;
   const Integrator integrator = make_integrator(scene.transfer_function(), effective.integrator);
   const int available = tbb::this_task_arena::max_concurrency();
   tbb::task_arena arena(settings.threads > 0 ? std::min(settings.threads, available) : available);
@@ -430,6 +568,8 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
     result.statistics.entries += part.entries;
     result.statistics.cells_visited += part.cells;
     result.statistics.lost_rays += part.lost;
+    result.statistics.surfaces += part.surfaces;
+    result.statistics.visits += part.visits;
   }
   result.statistics.rays = frame.pixels();
   result.cancelled = report.cancelled();

@@ -3,19 +3,23 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "plume/lib/camera.h"
+#include "plume/lib/clip.h"
 #include "plume/lib/image.h"
 #include "plume/lib/scene.h"
+#include "plume/lib/shading.h"
 #include "plume/preint/integrator.h"
+#include "plume/preint/interval_optics.h"
 
 namespace plume {
 
 /// What a pixel shows.
 enum class Mode : std::uint8_t {
-  /// Emission and absorption by the transfer function.
+  /// Emission and absorption by the scene's classification: volume, intervals and isosurfaces.
   volume,
   /// The greatest scalar along the ray, in the transfer function's colour for it; opaque where the
   /// ray meets the mesh. Channel "maximum".
@@ -23,8 +27,9 @@ enum class Mode : std::uint8_t {
   /// The integral of the scalar along the ray, in field units times world length units, as a shade
   /// of gray from the picture's least (or 0) to its greatest. Channel "integral".
   integral,
-  /// The distance to the first segment that is not transparent, as a shade of gray: the nearest is
-  /// white, the farthest black. Channel "depth".
+  /// The distance to the first segment that is not transparent, or, in a scene with intervals or
+  /// isosurfaces, to the first of these that is not, as a shade of gray: the nearest is white, the
+  /// farthest black. Channel "depth".
   depth,
 };
 
@@ -32,7 +37,15 @@ struct RenderSettings {
   int width = 1024;  ///< pixels, 1 to 65536
   int height = 768;  ///< pixels, 1 to 65536
   Mode mode = Mode::volume;
+  /// Of the volume.
   IntegratorSettings integrator;
+  /// Of interval volumes; `linear` is there to compare.
+  IntervalForm interval_form = IntervalForm::exponential;
+  /// Light on isosurfaces and, where it says so, intervals; none by default. Needs a scene that
+  /// keeps gradients (SceneOptions::keep_gradients).
+  std::optional<Lighting> lighting;
+  /// Of the mesh, only what all of these keep is seen, in every mode. A box is planes_of_box().
+  std::vector<ClipPlane> clip_planes;
   /// The polynomial that the scalar is taken for inside of cells that are not tetrahedra; see
   /// traverse/inner_scalar.h. Optics see it in linear parts that differ from it by at most 1e-4 of
   /// the field's range (see ScalarPolynomial for cells across which it bends too much for that);
@@ -49,6 +62,11 @@ struct RenderSettings {
   bool scalar_twin = false;
   /// Further channels: "depth", "optical_depth", "cell_id", "cell_count". Optical depth and cell
   /// count need whole rays, so early termination is off where one of them is asked for.
+  ///
+  /// With intervals or isosurfaces, depth and cell are those of the first hit: the first of these
+  /// that is not transparent. "isovalue" is the scalar there, and "normal" (three channels,
+  /// "normal.x" and so on) the direction in which it rises, of length one, in a scene that keeps
+  /// gradients; NaN where there is no hit.
   std::vector<std::string> channels;
 };
 
@@ -58,6 +76,8 @@ struct RenderStatistics {
   std::uint64_t entries = 0;        ///< times that a ray came in through the boundary
   std::uint64_t cells_visited = 0;  ///< cells walked through by all rays
   std::uint64_t lost_rays = 0;      ///< rays that found no way out: 0
+  std::uint64_t surfaces = 0;       ///< isosurfaces crossed, before rays ended
+  std::uint64_t visits = 0;         ///< to interval volumes, before rays ended
   /// What was chosen for this scene and why, one choice a line.
   std::vector<std::string> plan;
 };

@@ -10,6 +10,7 @@
 #include "plume/mesh/cell_to_point.h"
 #include "plume/mesh/connected_parts.h"
 #include "plume/mesh/error.h"
+#include "plume/mesh/gradients.h"
 #include "plume/mesh/validate.h"
 #include "plume/preint/closed_form.h"
 
@@ -88,10 +89,27 @@ Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_un
          field.not_finite,
          {}});
 
-  auto take = [this](auto walkable) {
+  std::vector<float> gradients;
+  if (options.keep_gradients) {
+    if (field.association == Association::cell)
+      throw Error(fmt::format(
+          "gradients of '{}': its values are constant in each cell; average them to the points "
+          "(--cell-data averaged)",
+          field.name));
+    gradients = point_gradients(mesh, field);
+  }
+  // What puts the gradients of the user's points where the walkable ones are.
+  const bool keep_cells = options.keep_cell_numbers || options.keep_gradients;
+
+  auto take = [&](auto walkable) {
     auto& found = walkable->mesh.findings;
     std::move(found.begin(), found.end(), std::back_inserter(body_->findings));
     found.clear();
+    if (options.keep_gradients) {
+      body_->gradients.emplace(walkable->mesh, mesh, std::move(gradients));
+      if constexpr (requires { walkable->mesh.original_cells; })
+        if (!options.keep_cell_numbers) walkable->mesh.original_cells = {};
+    }
     body_->walkable = std::move(walkable);
   };
   if (mesh.is_rectilinear())
@@ -101,16 +119,15 @@ Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_un
     take(std::make_unique<Walkable<GridWalker>>(make_walkable_grid(mesh, field, body_->bounds)));
   else if (all_tetrahedra(mesh))
     take(std::make_unique<Walkable<TetWalker>>(
-        make_walkable_tets(mesh, field, body_->bounds, options.keep_cell_numbers)));
+        make_walkable_tets(mesh, field, body_->bounds, keep_cells)));
   else {
-    WalkableCells cells =
-        make_walkable_cells(mesh, field, body_->bounds, options.keep_cell_numbers);
+    WalkableCells cells = make_walkable_cells(mesh, field, body_->bounds, keep_cells);
     cells.corner_cells = make_corner_cells(cells);
     take(std::make_unique<Walkable<CellWalker>>(std::move(cells)));
   }
   body_->field.values = {};
   body_->unit_distance = fitted_unit_distance(*this);
-  body_->transfer_function = to_transfer_function(body_->default_map, body_->unit_distance);
+  set_transfer_function(to_transfer_function(body_->default_map, body_->unit_distance));
 }
 
 Scene::~Scene() = default;
@@ -129,7 +146,17 @@ double Scene::default_unit_distance() const { return body_->unit_distance; }
 void Scene::set_transfer_function(TransferFunction transfer_function) {
   if (const auto problem = transfer_function.problem())
     throw Error(fmt::format("transfer function: {}", *problem));
+  body_->classification.volume = transfer_function;
   body_->transfer_function = std::move(transfer_function);
+}
+
+const Classification& Scene::classification() const { return body_->classification; }
+
+void Scene::set_classification(Classification classification) {
+  if (const auto problem = classification.problem())
+    throw Error(fmt::format("classification: {}", *problem));
+  if (classification.volume) body_->transfer_function = *classification.volume;
+  body_->classification = std::move(classification);
 }
 
 const char* Scene::form() const {
@@ -156,6 +183,8 @@ std::size_t Scene::connected_part_count() const {
 std::size_t Scene::bytes() const {
   return std::visit([](const auto& w) { return w->mesh.bytes(); }, body_->walkable);
 }
+
+bool Scene::has_gradients() const { return body_->gradients.has_value(); }
 
 TraceResult Scene::trace(const Ray& ray, const std::function<bool(const Segment&)>& visit,
                          ScalarOrder order) const {

@@ -12,6 +12,7 @@
 #include "plume/mesh/local_frame.h"
 #include "plume/mesh/mesh.h"
 #include "plume/mesh/scalar_field.h"
+#include "plume/preint/classification.h"
 #include "plume/preint/transfer_function.h"
 #include "plume/traverse/ray.h"
 #include "plume/traverse/segment.h"
@@ -31,9 +32,12 @@ struct SceneOptions {
   bool keep_cell_numbers = false;
   /// Read where the field is cell-centred.
   CellData cell_data = CellData::constant;
+  /// Compute and keep the field's gradients at the points, 12 bytes each; needed for light and for
+  /// the channel "normal". The field must be on points, or averaged to them.
+  bool keep_gradients = false;
 };
 
-/// Immutable but for the transfer function; safe to render from several threads.
+/// Immutable but for the classification; safe to render from several threads.
 class Scene {
  public:
   /// Checks the mesh, makes it walkable (in parallel) and chooses a transfer function that shows
@@ -61,6 +65,8 @@ class Scene {
   std::size_t connected_part_count() const;
   /// Bytes of the walkable form, the boundary's hierarchy not included.
   std::size_t bytes() const;
+  /// Whether keep_gradients was set.
+  bool has_gradients() const;
 
   /// The colour map fitted to the field's values: "turbo" from the 1st to the 99th percentile,
   /// the more opaque the rarer a value is.
@@ -70,8 +76,17 @@ class Scene {
   /// more than 4. A tenth of the diagonal of the bounds where nothing is opaque.
   double default_unit_distance() const;
 
+  /// What values look like: a volume by default. Intervals and isosurfaces are seen in the modes
+  /// volume and depth.
+  const Classification& classification() const;
+  /// Throws Error where the classification has a problem (see Classification::problem). Where it
+  /// has no volume, transfer_function() stays what it was.
+  void set_classification(Classification classification);
+
+  /// The volume's, or the last one that it had: the colours of the mode maximum.
   const TransferFunction& transfer_function() const;
-  /// Throws Error where the transfer function has a problem (see TransferFunction::problem).
+  /// Sets the volume of the classification and leaves its intervals and isosurfaces. Throws Error
+  /// where the transfer function has a problem (see TransferFunction::problem).
   void set_transfer_function(TransferFunction transfer_function);
 
   /// Follows a ray and calls `visit` for each segment, front to back, until that returns false.

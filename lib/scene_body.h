@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <variant>
 
+#include "plume/lib/gradient_field.h"
 #include "plume/lib/scene.h"
 #include "plume/traverse/trace.h"
 #include "plume/traverse/trace_rectilinear.h"
@@ -34,6 +36,8 @@ struct Scene::Body {
   ColorMap default_map;
   double unit_distance = 1;
   TransferFunction transfer_function;
+  Classification classification;
+  std::optional<GradientField> gradients;
 };
 
 }  // namespace plume

@@ -58,6 +58,31 @@ ScalarPolynomial ScalarPolynomial::cubic(float first, float third, float two_thi
           largest_of({first, third, two_thirds, last})};
 }
 
+double ScalarPolynomial::place_of(double value, double u0, double u1) const {
+  constexpr int kSteps = 100;  // some 6 do; a bisection would need 40
+  double f0 = (*this)(u0)-value, f1 = (*this)(u1)-value;
+  if (!(f0 * f1 < 0)) return std::abs(f0) <= std::abs(f1) ? u0 : u1;
+  int kept = 0;  // +1 where u0 was kept in the last step, -1 where u1 was
+  double u = u0;
+  for (int step = 0; step < kSteps && std::abs(u1 - u0) > 1e-12; ++step) {
+    u = u0 + (u1 - u0) * (f0 / (f0 - f1));
+    const double f = (*this)(u)-value;
+    if (f == 0) return u;
+    if (f * f1 > 0) {
+      u1 = u;
+      f1 = f;
+      if (kept > 0) f0 /= 2;
+      kept = 1;
+    } else {
+      u0 = u;
+      f0 = f;
+      if (kept < 0) f1 /= 2;
+      kept = -1;
+    }
+  }
+  return u;
+}
+
 float ScalarPolynomial::maximum() const {
   float maximum = std::fmax(first_, last_);
   for (const double place : extrema_)

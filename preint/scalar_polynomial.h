@@ -44,6 +44,14 @@ class ScalarPolynomial {
     return coefficient_[0] + coefficient_[1] / 2 + coefficient_[2] / 3 + coefficient_[3] / 4;
   }
 
+  /// Where the polynomial has a value between u0 and u1, two places with no extremum between them:
+  /// the root is isolated, and repeated linear interpolation finds it (Marmitt, "Interactive Volume
+  /// Ray Tracing" (2008), section 4.3.3, algorithm 8), here with the Illinois rule, by which both
+  /// ends close in. Within 1e-12 of the root, where the polynomial's slope leaves that of its own
+  /// rounding. Where no value between u0 and u1 is that one (by rounding of what led there), the
+  /// place nearer to it.
+  double place_of(double value, double u0, double u1) const;
+
   /// Pieces of each monotone part are no more than this many, whatever the tolerance.
   static constexpr int kMostPieces = 32;
 

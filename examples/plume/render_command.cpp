@@ -16,6 +16,7 @@
 #include "plume/io/read_mesh.h"
 #include "plume/io/whole_file.h"
 #include "plume/lib/plume.h"
+#include "surface_options.h"
 
 namespace plume::command {
 namespace {
@@ -25,11 +26,13 @@ struct RenderArguments {
   std::string view = "iso", camera, transfer_function, transfer_range, mode = "volume";
   std::string integrator = "closed-form", order = "1", cell_data = "constant", background = "white",
               stats;
-  std::vector<std::string> channels;
+  std::string interval_form = "exponential";
+  std::vector<std::string> channels, isosurfaces, intervals, lights, clip_planes;
+  std::string material, clip_box;
   double azimuth = 0, elevation = 0, zoom = 1, opacity_scale = 1, view_angle = 0;
   double unit_distance = 0, early_termination = RenderSettings{}.early_termination;
   int time_step = -1, samples = 1, threads = 0, bits = 8;
-  bool parallel = false, merge_points = false, quiet = false, verbose = false;
+  bool no_volume = false, parallel = false, merge_points = false, quiet = false, verbose = false;
 };
 
 const std::vector<std::pair<std::string, Mode>> kModes{{"volume", Mode::volume},
@@ -42,6 +45,8 @@ const std::vector<std::pair<std::string, IntegratorKind>> kIntegrators{
     {"midpoint", IntegratorKind::midpoint}};
 const std::vector<std::pair<std::string, CellData>> kCellData{{"constant", CellData::constant},
                                                               {"averaged", CellData::averaged}};
+const std::vector<std::pair<std::string, IntervalForm>> kIntervalForms{
+    {"exponential", IntervalForm::exponential}, {"linear", IntervalForm::linear}};
 const std::vector<std::pair<std::string, ScalarOrder>> kOrders{
     {"1", ScalarOrder::linear}, {"2", ScalarOrder::quadratic}, {"3", ScalarOrder::cubic}};
 
@@ -103,6 +108,72 @@ void choose_transfer_function(Scene& scene, const RenderArguments& args, const C
   scene.set_transfer_function(to_transfer_function(map, unit, args.opacity_scale));
 }
 
+bool asks_for(const std::vector<std::string>& channels, const char* name) {
+  return std::find(channels.begin(), channels.end(), name) != channels.end();
+}
+
+// Light and clip planes need no mesh: what is wrong with them is said before a long read.
+void choose_light_and_clip(const RenderArguments& args, RenderSettings& settings) {
+  const bool surfaces = !args.isosurfaces.empty() || !args.intervals.empty();
+  for (const char* channel : {"isovalue", "normal"})
+    if (asks_for(args.channels, channel) && !surfaces)
+      throw Error(
+          fmt::format("--channels {}: it is of isosurfaces and intervals; add an --iso or "
+                      "an --interval",
+                      channel));
+  for (const std::string& text : args.clip_planes)
+    settings.clip_planes.push_back(parse_clip_plane(text));
+  if (!args.clip_box.empty())
+    for (const ClipPlane& plane : parse_clip_box(args.clip_box))
+      settings.clip_planes.push_back(plane);
+  if (args.lights.empty()) {
+    if (!args.material.empty())
+      throw Error(
+          fmt::format("--material '{}': there is no light; add --light head", args.material));
+    return;
+  }
+  if (!surfaces)
+    throw Error(fmt::format("--light '{}': there is nothing to light; add an --iso or --interval",
+                            args.lights[0]));
+  Lighting lighting;
+  lighting.lights.clear();
+  for (const std::string& text : args.lights) lighting.lights.push_back(parse_light(text));
+  if (!args.material.empty()) {
+    const auto n = parse_numbers("--material", args.material, {4});
+    lighting.ambient = n[0];
+    lighting.diffuse = n[1];
+    lighting.specular = n[2];
+    lighting.exponent = n[3];
+    if (const auto problem = lighting.problem())
+      throw Error(fmt::format("--material '{}': {}", args.material, *problem));
+  }
+  settings.lighting = lighting;
+}
+
+void choose_classification(Scene& scene, const RenderArguments& args, const Console& console) {
+  if (args.no_volume && args.isosurfaces.empty() && args.intervals.empty())
+    throw Error("--no-volume leaves nothing to see; add an --iso or an --interval");
+  Classification classification = scene.classification();
+  const ScalarField& field = scene.field();
+  auto warn_outside = [&](const std::string& what, float low, float high) {
+    if (high < field.low || low > field.high)
+      console.say(fmt::format("{} is outside of '{}', which runs from {:g} to {:g}", what,
+                              field.name, field.low, field.high));
+  };
+  for (const std::string& text : args.isosurfaces) {
+    classification.isosurfaces.push_back(parse_isosurface(text, scene.transfer_function()));
+    const float value = classification.isosurfaces.back().value;
+    warn_outside("--iso " + text, value, value);
+  }
+  for (const std::string& text : args.intervals) {
+    classification.intervals.push_back(parse_interval(text, scene.transfer_function()));
+    warn_outside("--interval " + text, classification.intervals.back().low,
+                 classification.intervals.back().high);
+  }
+  if (args.no_volume) classification.volume.reset();
+  scene.set_classification(std::move(classification));
+}
+
 Camera choose_camera(const Bounds& bounds, const RenderArguments& args, double aspect_ratio) {
   Camera camera = named_view(args.view, bounds, aspect_ratio);
   if (!args.camera.empty()) {
@@ -148,6 +219,8 @@ void run(const RenderArguments& args) {
   choose_background(args.background, file_options);
   check_image_path(args.output);
   if (!args.stats.empty()) check_writable(args.stats);
+  RenderSettings settings;
+  choose_light_and_clip(args, settings);
   const double aspect_ratio = static_cast<double>(size.width) / size.height;
   // What can be wrong with a camera shows with any bounds: said now, not after a long read.
   PixelRays(choose_camera({{0, 0, 0}, {1, 1, 1}}, args, aspect_ratio), size.width, size.height);
@@ -166,8 +239,8 @@ void run(const RenderArguments& args) {
   if (args.association == "point") scene_options.field.association = Association::point;
   if (args.association == "cell") scene_options.field.association = Association::cell;
   scene_options.cell_data = chosen(kCellData, args.cell_data);
-  scene_options.keep_cell_numbers =
-      std::find(args.channels.begin(), args.channels.end(), "cell_id") != args.channels.end();
+  scene_options.keep_cell_numbers = asks_for(args.channels, "cell_id");
+  scene_options.keep_gradients = settings.lighting || asks_for(args.channels, "normal");
   auto scene = [&] {
     try {
       return Scene(*mesh, scene_options);
@@ -177,6 +250,7 @@ void run(const RenderArguments& args) {
   }();
   mesh.reset();  // the scene needs it no more
   choose_transfer_function(scene, args, console);
+  choose_classification(scene, args, console);
   const double ms_build = watch.lap();
   const ScalarField& field = scene.field();
   console.say(fmt::format("{}: {} cells, coloured by '{}' ({}, {:g} to {:g})", args.mesh,
@@ -187,12 +261,12 @@ void run(const RenderArguments& args) {
                           field.low, field.high));
   for (const Finding& finding : scene.findings()) console.say(describe(finding));
 
-  RenderSettings settings;
   settings.width = size.width;
   settings.height = size.height;
   settings.mode = chosen(kModes, args.mode);
   settings.integrator.kind = chosen(kIntegrators, args.integrator);
   settings.integrator.samples = args.samples;
+  settings.interval_form = chosen(kIntervalForms, args.interval_form);
   settings.order = chosen(kOrders, args.order);
   settings.early_termination = args.early_termination;
   settings.threads = args.threads;
@@ -228,6 +302,8 @@ void run(const RenderArguments& args) {
         {"entries", statistics.entries},
         {"cells_visited", statistics.cells_visited},
         {"lost_rays", statistics.lost_rays},
+        {"isosurfaces_crossed", statistics.surfaces},
+        {"interval_visits", statistics.visits},
         {"ms",
          {{"read", ms_read}, {"build", ms_build}, {"render", ms_render}, {"write", ms_write}}},
         {"peak_memory_bytes", peak_memory_bytes()},
@@ -295,6 +371,35 @@ void add_render(CLI::App& app) {
       ->add_option("--unit-distance", args->unit_distance,
                    "World length over which opacity applies (a tenth of the mesh's diagonal)")
       ->check(CLI::PositiveNumber);
+  command
+      ->add_option("--iso", args->isosurfaces,
+                   "An isosurface: VALUE[:OPACITY[:R,G,B]]; opaque, of the colour map's colour "
+                   "unless said (repeatable)")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--interval", args->intervals,
+                   "All between two values, as opaque however thick it is: "
+                   "LOW,HIGH[:OPACITY[:R,G,B]] (repeatable; opacity 0.5)")
+      ->allow_extra_args(false);
+  command
+      ->add_option("--light", args->lights,
+                   "Light on isosurfaces and intervals: head, or X,Y,Z towards the light, and "
+                   ":INTENSITY (repeatable)")
+      ->allow_extra_args(false);
+  command->add_option("--material", args->material,
+                      "Of what is lit: AMBIENT,DIFFUSE,SPECULAR,EXPONENT (0.2,0.8,0.25,30)");
+  command
+      ->add_option("--clip", args->clip_planes,
+                   "Keep one side of a plane: X,Y,Z,NX,NY,NZ, the normal points to what is kept "
+                   "(repeatable)")
+      ->allow_extra_args(false);
+  command->add_option("--clip-box", args->clip_box,
+                      "Keep what is inside of a box: X0,Y0,Z0,X1,Y1,Z1");
+  command->add_flag("--no-volume", args->no_volume, "Isosurfaces and intervals alone");
+  command
+      ->add_option("--interval-form", args->interval_form,
+                   "Opacity of intervals: exponential or linear (exponential)")
+      ->check(CLI::IsMember(names_of(kIntervalForms)));
   command->add_option("--mode", args->mode, "volume, mip, integral or depth (volume)")
       ->check(CLI::IsMember(names_of(kModes)));
   command->add_option("--integrator", args->integrator, "closed-form, table or midpoint")
@@ -312,7 +417,8 @@ void add_render(CLI::App& app) {
       ->check(CLI::Range(0.0, 0.999));
   command
       ->add_option("--channels", args->channels,
-                   "More channels in an EXR: depth,optical_depth,cell_id,cell_count")
+                   "More channels in an EXR: depth,optical_depth,cell_id,cell_count,isovalue,"
+                   "normal")
       ->delimiter(',');
   command->add_option("--bits", args->bits, "Bits a channel of a PNG: 8 or 16")
       ->check(CLI::IsMember({8, 16}));

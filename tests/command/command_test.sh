@@ -130,6 +130,52 @@ done
 ok "the same picture for any number of threads" cmp t1.png t2.png
 ok "and for more of them" cmp t1.png t3.png
 
+# Isosurfaces, intervals, light and clip planes.
+ok "an isosurface and two intervals" "$plume" render body.vts --field pressure -o s.png --size 40x30 --stats s.json \
+  --iso 1.5:0.5:1,0.9,0.8 --interval 2,3 --interval 5,6:0.3:1,0,0 --light head --light 1,-1,0:0.5 \
+  --material 0.3,0.6,0.1,20
+cp err.txt said.txt
+ok "they are counted and planned" json s.json \
+  "j['isosurfaces_crossed']>0 and j['interval_visits']>0 and j['lost_rays']==0 and any(l.startswith('intervals: [2, 3] [5, 6]') for l in j['plan']) and any(l.startswith('isosurfaces: 1.5') for l in j['plan']) and any(l.startswith('light: 2') for l in j['plan'])"
+ok "they cost nothing where there are none" json a.json \
+  "j['isosurfaces_crossed']==0 and not any(l.startswith(('intervals','isosurfaces','light','clip')) for l in j['plan'])"
+for mesh in box.vtu body.vts mixed.vtu uneven.vtr; do
+  ok "channels of the first hit in $mesh" "$plume" render $mesh --no-volume --iso 0.5:0.5 --interval 0.6,0.7 \
+    --light head --order 3 --channels depth,normal,cell_id,isovalue -o hit.exr --size 40x30 --quiet
+  ok "$mesh cut open" "$plume" render $mesh --clip 0.5,0.5,0.5,1,0,0 --clip 0,0.5,0,0,-1,0 --interval 0.3,0.7 \
+    -o cut.png --size 40x30 --stats cut.json --quiet
+  ok "no ray is lost in $mesh cut open" json cut.json "j['lost_rays']==0 and any(l.startswith('clip planes: 2') for l in j['plan'])"
+done
+ok "a negative isovalue" "$plume" render box.vtu --iso -0.25 -o s.png --size 20x20
+cp err.txt said.txt
+ok "outside of the range is said" grep -q -- "--iso -0.25 is outside of 'radius'" said.txt
+ok "the linear form" "$plume" render box.vtu --interval 0.2,0.4 --interval-form linear -o s.png --size 20x20 --quiet
+ok "light on averaged cell data" "$plume" render box.vtu --field cell_radius --cell-data averaged --iso 0.4 --light head \
+  -o s.png --size 20x20 --quiet
+refused "light on cell data" 1 "box.vtu|cell_radius|--cell-data averaged" "$plume" render box.vtu --field cell_radius \
+  --iso 0.4 --light head -o x.png
+refused "an isovalue that is none" 1 "--iso|high|VALUE" "$plume" render box.vtu --iso high -o x.png
+refused "an isosurface with too many parts" 1 "--iso|1:1:1,1,1:2|VALUE" "$plume" render box.vtu --iso 1:1:1,1,1:2 -o x.png
+refused "an opacity above 1" 1 "--iso '0.5:2'|opacity 2|0 to 1" "$plume" render box.vtu --iso 0.5:2 -o x.png
+refused "a colour above 1" 1 "--interval '0,1:1:0,0,9'|9|0 to 1" "$plume" render box.vtu --interval 0,1:1:0,0,9 -o x.png
+refused "an interval of one number" 1 "--interval '0.5'|LOW,HIGH" "$plume" render box.vtu --interval 0.5 -o x.png
+refused "an interval of no width" 1 "[0.5, 0.5]|isosurface" "$plume" render box.vtu --interval 0.5,0.5 -o x.png
+refused "an interval from high to low" 1 "[0.5, 0.2]|[0.2, 0.5]" "$plume" render box.vtu --interval 0.5,0.2 -o x.png
+refused "intervals that overlap" 1 "[0, 0.5]|[0.4, 0.6]|overlap" "$plume" render box.vtu --interval 0,0.5 --interval 0.4,0.6 -o x.png
+refused "the same isovalue twice" 1 "two isosurfaces at 0.5" "$plume" render box.vtu --iso 0.5 --iso 0.5 -o x.png
+refused "nothing to see" 1 "--no-volume|--iso" "$plume" render box.vtu --no-volume -o x.png
+refused "nothing to light" 1 "--light|--iso" "$plume" render box.vtu --light head -o x.png
+refused "no light on a material" 1 "--material|--light" "$plume" render box.vtu --iso 0.5 --material 1,1,1,1 -o x.png
+refused "a material of three numbers" 1 "--material|1,1,1" "$plume" render box.vtu --iso 0.5 --light head --material 1,1,1 -o x.png
+refused "a light from nowhere" 1 "--light '0,0,0'|direction" "$plume" render box.vtu --iso 0.5 --light 0,0,0 -o x.png
+refused "a light that is none" 1 "--light 'lamp'|head" "$plume" render box.vtu --iso 0.5 --light lamp -o x.png
+refused "a clip plane without a normal" 1 "--clip '0,0,0,0,0,0'|normal" "$plume" render box.vtu --clip 0,0,0,0,0,0 -o x.png
+ok "a clip box" "$plume" render box.vtu --clip-box 0.2,0.2,0.2,0.8,0.7,0.6 -o s.png --size 20x20 --stats s.json --quiet
+ok "is six planes" json s.json "any(l.startswith('clip planes: 6') for l in j['plan'])"
+refused "a clip box inside out" 1 "--clip-box|0.8 to 0.2" "$plume" render box.vtu --clip-box 0.8,0,0,0.2,1,1 -o x.png
+refused "a clip plane of three numbers" 1 "--clip '0,0,0'|6" "$plume" render box.vtu --clip 0,0,0 -o x.png
+refused "the first hit of a volume" 1 "isovalue|isosurfaces" "$plume" render box.vtu --channels isovalue -o x.exr
+
 refused "no arguments" 2 "subcommand" "$plume"
 refused "an unknown option" 2 "--colour" "$plume" render box.vtu --colour red
 refused "an unknown mode" 2 "mode" "$plume" render box.vtu --mode xray

@@ -52,6 +52,32 @@ TEST(ScalarPolynomial, is_the_polynomial_that_was_sampled) {
   }
 }
 
+TEST(ScalarPolynomial, finds_where_it_has_a_value) {
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> share(0.001, 0.999);
+  for (const auto& [f, p] : seeded_polynomials(2000)) {
+    std::vector<double> ends{0};
+    ends.insert(ends.end(), p.extrema().begin(), p.extrema().end());
+    ends.push_back(1);
+    for (std::size_t i = 1; i < ends.size(); ++i) {
+      const double rising = p(ends[i]) > p(ends[i - 1]) ? 1 : -1;
+      const double value = p(ends[i - 1]) + share(random) * (p(ends[i]) - p(ends[i - 1]));
+      const double place = p.place_of(value, ends[i - 1], ends[i]);
+      double low = ends[i - 1], high = ends[i];
+      for (int step = 0; step < 60; ++step) {
+        const double middle = (low + high) / 2;
+        (rising * (p(middle) - value) < 0 ? low : high) = middle;
+      }
+      const double slope = std::abs(p(place + 1e-6) - p(place - 1e-6)) / 2e-6;
+      ASSERT_NEAR(place, low, 1e-12 + 1e-15 * size_of(f) / slope);
+    }
+    // Beyond the ends: the nearer one.
+    const double greatest = std::max(p(0.0), p(1e-9)), least = std::min(p(0.0), p(1e-9));
+    ASSERT_EQ(p.place_of(greatest + 1, 0, 1e-9), p(0.0) >= p(1e-9) ? 0 : 1e-9);
+    ASSERT_EQ(p.place_of(least - 1, 0, 1e-9), p(0.0) <= p(1e-9) ? 0 : 1e-9);
+  }
+}
+
 TEST(ScalarPolynomial, finds_its_extrema) {
   for (const auto& [f, p] : seeded_polynomials(2000)) {
     double greatest = -std::numeric_limits<double>::infinity();

@@ -1,0 +1,263 @@
+#include "plume/lib/gradient_field.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "plume/mesh/cell_shape.h"
+#include "plume/mesh/explicit_cells.h"
+#include "plume/traverse/inner_scalar.h"
+#include "plume/traverse/isoparametric.h"
+
+namespace plume {
+namespace {
+
+using Vector = GradientField::Vector;
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+
+bool is_finite(const Vector& v) { return std::isfinite(v[0] + v[1] + v[2]); }
+
+Vector local_place(const LocalFrame& frame, const Vector& world) {
+  Vector local;
+  for (std::size_t a = 0; a < 3; ++a) local[a] = (world[a] - frame.center[a]) * frame.scale;
+  return local;
+}
+
+std::vector<std::uint32_t> points_of(const WalkableCells& walkable, std::uint32_t cell) {
+  std::vector<std::uint32_t> ids;
+  for (const std::uint32_t face : walkable.faces_of(cell)) {
+    const auto loop = walkable.loop(face);
+    ids.insert(ids.end(), loop.begin(), loop.end());
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+// Puts values of the user's points in the order of the walkable ones, which has no map between the
+// two: cell by cell, points are the same whose coordinates are.
+template <class Walkable, class PointsOf>
+std::vector<float> reordered(const Walkable& walkable, const Mesh& mesh,
+                             const std::vector<float>& of_points, const PointsOf& points_of_cell) {
+  assert(walkable.original_cells.size() == walkable.cell_count());
+  const CellReader reader(mesh);
+  std::vector<float> values(3 * walkable.points.size(), kNaN);
+  std::vector<bool> found(walkable.points.size(), false);
+  std::vector<std::uint32_t> users;
+  for (std::uint32_t cell = 0; cell < walkable.cell_count(); ++cell) {
+    const auto ids = points_of_cell(cell);
+    if (std::all_of(ids.begin(), ids.end(), [&](auto id) { return found[id]; })) continue;
+    reader.points(walkable.original_cells[cell], users);
+    for (const std::uint32_t user : users) {
+      const auto p = point_at(mesh, user);
+      const WalkablePoint local = walkable.frame.local(p[0], p[1], p[2], 0);
+      for (const std::uint32_t id : ids) {
+        const WalkablePoint& candidate = walkable.points[id];
+        if (found[id] || !std::equal(local.position, local.position + 3, candidate.position))
+          continue;
+        std::copy_n(&of_points[3 * std::size_t{user}], 3, &values[3 * std::size_t{id}]);
+        found[id] = true;
+      }
+    }
+  }
+  return values;
+}
+
+// Weights of the eight corners a + 2b + 4c of a cell.
+std::array<double, 8> trilinear_weights(const Vector& parameters) {
+  std::array<double, 8> weights;
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    weights[corner] = 1;
+    for (std::size_t a = 0; a < 3; ++a)
+      weights[corner] *= (corner >> a & 1) != 0 ? parameters[a] : 1 - parameters[a];
+  }
+  return weights;
+}
+
+}  // namespace
+
+GradientField::GradientField(const WalkableTets& walkable, const Mesh& mesh,
+                             std::vector<float> of_points) {
+  for (std::size_t face = 0; face < walkable.boundary.size(); ++face)
+    boundary_.emplace_back(walkable.boundary[face].cell, static_cast<std::uint32_t>(face));
+  std::sort(boundary_.begin(), boundary_.end());
+  values_ = reordered(walkable, mesh, of_points,
+                      [&](std::uint32_t cell) { return points_of(walkable, cell); });
+}
+
+GradientField::GradientField(const WalkableCells& walkable, const Mesh& mesh,
+                             std::vector<float> of_points)
+    : values_(reordered(walkable, mesh, of_points,
+                        [&](std::uint32_t cell) { return plume::points_of(walkable, cell); })) {}
+
+GradientField::GradientField(const WalkableGrid&, const Mesh&, std::vector<float> of_points)
+    : values_(std::move(of_points)) {}
+
+GradientField::GradientField(const WalkableRectilinear&, const Mesh&, std::vector<float> of_points)
+    : values_(std::move(of_points)) {}
+
+std::size_t GradientField::bytes() const {
+  return values_.size() * sizeof(float) + boundary_.size() * sizeof(boundary_[0]);
+}
+
+// A tetrahedron does not store its points. At the boundary a face has them all; elsewhere each
+// neighbour's link back names the one that the common face leaves out.
+std::array<std::uint32_t, 4> GradientField::points_of(const WalkableTets& walkable,
+                                                      std::uint32_t cell) const {
+  const auto at = std::lower_bound(boundary_.begin(), boundary_.end(), std::pair{cell, 0u});
+  if (at != boundary_.end() && at->first == cell) {
+    const WalkableTets::Boundary& face = walkable.boundary[at->second];
+    return {face.loop[0], face.loop[1], face.loop[2], face.apex};
+  }
+  std::array<std::uint32_t, 4> points{};
+  for (std::size_t rank = 0; rank < 4; ++rank) {
+    const std::uint32_t neighbor = walkable.cells[cell][rank].cell;
+    // Two cells may share several faces: then each of the links back is taken once.
+    const auto& links = walkable.cells[cell];
+    auto same = [&](const WalkableTets::Link& link) { return link.cell == neighbor; };
+    auto wanted = std::count_if(links.begin(), links.begin() + static_cast<long>(rank), same);
+    for (const WalkableTets::Link& back : walkable.cells[neighbor]) {
+      if (back.cell != cell) continue;
+      if (wanted == 0) points[rank] = back.apex;
+      --wanted;
+    }
+  }
+  return points;
+}
+
+Vector GradientField::weighted(std::span<const std::uint32_t> points,
+                               std::span<const double> weights) const {
+  Vector sum{0, 0, 0};
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Vector gradient = value(points[i]);
+    for (std::size_t a = 0; a < 3; ++a) sum[a] += weights[i] * gradient[a];
+  }
+  return sum;
+}
+
+template <class Walkable>
+Vector GradientField::by_distance(const Walkable& walkable, std::span<const std::uint32_t> points,
+                                  const Vector& local) const {
+  Vector sum{0, 0, 0};
+  double total = 0;
+  for (const std::uint32_t point : points) {
+    const Vector gradient = value(point);
+    if (!is_finite(gradient)) continue;
+    double squared = 1e-30;
+    for (std::size_t a = 0; a < 3; ++a)
+      squared += std::pow(walkable.points[point].position[a] - local[a], 2);
+    for (std::size_t a = 0; a < 3; ++a) sum[a] += gradient[a] / squared;
+    total += 1 / squared;
+  }
+  for (double& x : sum) x /= total;  // 0 / 0 where no point has a gradient
+  return sum;
+}
+
+template <class Walkable>
+Vector GradientField::in_tetrahedron(const Walkable& walkable,
+                                     std::span<const std::uint32_t> points,
+                                     const Vector& local) const {
+  std::array<PointValue, 4> p;
+  for (std::size_t i = 0; i < 4; ++i) p[i] = point_value(walkable.points[points[i]]);
+  const InverseJacobian inverse({p[1] - p[0], p[2] - p[0], p[3] - p[0]});
+  if (inverse.is_regular()) {
+    const auto [u, v, w] = inverse.step(p[0], local);
+    const Vector result = weighted(points, std::array{1 - u - v - w, u, v, w});
+    if (is_finite(result)) return result;
+  }
+  return by_distance(walkable, points, local);
+}
+
+Vector GradientField::at(const WalkableTets& walkable, std::uint32_t cell,
+                         const Vector& place) const {
+  const auto points = points_of(walkable, cell);
+  const Vector local = local_place(walkable.frame, place);
+  return in_tetrahedron(walkable, points, local);
+}
+
+Vector GradientField::at(const WalkableGrid& walkable, std::uint32_t cell,
+                         const Vector& place) const {
+  const std::uint32_t ni = walkable.dimensions[0], nij = ni * walkable.dimensions[1];
+  const std::uint32_t first = walkable.first_point(cell);
+  std::array<std::uint32_t, 8> points;
+  std::array<WalkablePoint, 8> corners;
+  for (std::uint32_t c = 0; c < 8; ++c) {
+    points[c] = first + (c & 1) + (c >> 1 & 1) * ni + (c >> 2) * nij;
+    corners[c] = walkable.points[points[c]];
+  }
+  const Vector local = local_place(walkable.frame, place);
+  const MultilinearMap map = MultilinearMap::hexahedron(corners);
+  if (const auto parameters = invert(map, local, map.center())) {
+    const Vector result = weighted(points, trilinear_weights(*parameters));
+    if (is_finite(result)) return result;
+  }
+  return by_distance(walkable, points, local);
+}
+
+Vector GradientField::at(const WalkableRectilinear& walkable, std::uint32_t cell,
+                         const Vector& place) const {
+  const std::uint32_t ci = walkable.points(0) - 1, cj = walkable.points(1) - 1;
+  const std::array<std::uint32_t, 3> index{cell % ci, cell / ci % cj, cell / ci / cj};
+  Vector parameters;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const auto& axis = walkable.axes[a];
+    const double along = (place[a] - axis.coordinates[index[a]]) * axis.per_width[index[a]];
+    parameters[a] = std::clamp(axis.ascending() ? along : -along, 0.0, 1.0);
+  }
+  std::array<std::uint32_t, 8> points;
+  for (std::uint32_t c = 0; c < 8; ++c)
+    points[c] =
+        index[0] + (c & 1) +
+        walkable.points(0) * (index[1] + (c >> 1 & 1) + walkable.points(1) * (index[2] + (c >> 2)));
+  const std::array<double, 8> weights = trilinear_weights(parameters);
+  Vector sum{0, 0, 0};
+  double total = 0;
+  for (std::size_t c = 0; c < 8; ++c) {
+    const Vector gradient = value(points[c]);
+    if (!is_finite(gradient)) continue;
+    for (std::size_t a = 0; a < 3; ++a) sum[a] += weights[c] * gradient[a];
+    total += weights[c];
+  }
+  for (double& x : sum) x /= total;  // 0 / 0 where no corner has a gradient
+  return sum;
+}
+
+// The cell alone, as a mesh of its own whose scalar is one component of the gradient: what
+// interpolates scalars in cells of any kind then interpolates gradients.
+Vector GradientField::at(const WalkableCells& walkable, std::uint32_t cell,
+                         const Vector& place) const {
+  const std::vector<std::uint32_t> points = plume::points_of(walkable, cell);
+  const Vector local = local_place(walkable.frame, place);
+  if (shape_of(walkable, cell).type == CellType::tetrahedron)
+    return in_tetrahedron(walkable, points, local);
+  WalkableCells alone;
+  alone.frame = walkable.frame;
+  for (const std::uint32_t id : points) alone.points.push_back(walkable.points[id]);
+  alone.face_begin = {0};
+  alone.cell_begin = {0};
+  for (const std::uint32_t face : walkable.faces_of(cell)) {
+    for (const std::uint32_t id : walkable.loop(face))
+      alone.face_points.push_back(static_cast<std::uint32_t>(
+          std::lower_bound(points.begin(), points.end(), id) - points.begin()));
+    alone.face_begin.push_back(static_cast<std::uint32_t>(alone.face_points.size()));
+    const bool owned = walkable.face_sides[face].owner == cell;
+    alone.face_sides.push_back({owned ? 0u : 1u, owned ? 1u : 0u});
+    alone.cell_faces.push_back(static_cast<std::uint32_t>(alone.cell_faces.size()));
+  }
+  alone.cell_begin.push_back(static_cast<std::uint32_t>(alone.cell_faces.size()));
+  Vector result;
+  for (std::size_t a = 0; a < 3; ++a) {
+    for (std::size_t i = 0; i < points.size(); ++i)
+      alone.points[i].scalar = static_cast<float>(value(points[i])[a]);
+    float component = kNaN;
+    if (!scalars_inside(alone, 0, std::span(&local, 1), &component) || !std::isfinite(component))
+      return by_distance(walkable, points, local);
+    result[a] = component;
+  }
+  return result;
+}
+
+}  // namespace plume
