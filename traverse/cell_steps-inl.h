@@ -136,12 +136,12 @@ class CellSteps {
     const auto* const words = reinterpret_cast<const std::uint32_t*>(cells_);
     const VU at_word = hn::Add(hn::ShiftLeft<4>(packet.cell), hn::Set(du, 8));
     const VU link = hn::GatherIndex(du, words, hn::BitCast(di, hn::Add(at_word, safe_exit)));
-    const VU other = hn::GatherIndex(du, words, hn::BitCast(di, hn::Add(at_word, hn::Set(du, 6))));
     const auto left = hn::Eq(link, hn::Set(du, kNone));
     const VU from = hn::And(link, hn::Set(du, 7));
-    // Into or out of a cell that is no CornerCell.
-    const auto foreign = hn::Or(hn::Ne(other, hn::Zero(du)),
-                                hn::AndNot(left, hn::Eq(from, hn::Set(du, kNoCorners))));
+    // Out of a cell that is no CornerCell, or into one.
+    const VU no_corners = hn::Set(du, kNoCorners);
+    const auto foreign =
+        hn::Or(hn::Eq(packet.from, no_corners), hn::AndNot(left, hn::Eq(from, no_corners)));
     MF asks = hn::Or(asks_bits, hn::RebindMask(d, foreign));
 
     StepResult result;
@@ -160,7 +160,6 @@ class CellSteps {
     packet.cell = hn::IfThenZeroElse(left, hn::ShiftRight<3>(link));
     packet.from = from;
     if (HWY_UNLIKELY(asking != 0)) AskWalker(state, packet, asking, result);
-    // Lanes without a ray stay in cell 0, whatever its links are.
     return result;
   }
 
