@@ -95,6 +95,7 @@ void check(const Scene& scene, const RenderSettings& settings) {
 
 struct Counts {
   std::uint64_t hit = 0, entries = 0, cells = 0, lost = 0, surfaces = 0, visits = 0;
+  std::uint64_t in_packets = 0;
 
   void add(const TraceResult& trace) {
     hit += trace.entries > 0 ? 1 : 0;
@@ -198,6 +199,7 @@ class Frame {
         return;
       }
       counts.add(result.trace);
+      ++counts.in_packets;
       float* rgba = &image_.rgba[4 * index];
       rgba[0] = result.color.r;
       rgba[1] = result.color.g;
@@ -568,6 +570,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
     result.statistics.entries += part.entries;
     result.statistics.cells_visited += part.cells;
     result.statistics.lost_rays += part.lost;
+    result.statistics.rays_in_packets += part.in_packets;
     result.statistics.surfaces += part.surfaces;
     result.statistics.visits += part.visits;
   }

@@ -72,12 +72,13 @@ struct RenderSettings {
 
 struct RenderStatistics {
   std::uint64_t rays = 0;
-  std::uint64_t rays_hit = 0;       ///< rays that came into the mesh
-  std::uint64_t entries = 0;        ///< times that a ray came in through the boundary
-  std::uint64_t cells_visited = 0;  ///< cells walked through by all rays
-  std::uint64_t lost_rays = 0;      ///< rays that found no way out: 0
-  std::uint64_t surfaces = 0;       ///< isosurfaces crossed, before rays ended
-  std::uint64_t visits = 0;         ///< to interval volumes, before rays ended
+  std::uint64_t rays_hit = 0;         ///< rays that came into the mesh
+  std::uint64_t entries = 0;          ///< times that a ray came in through the boundary
+  std::uint64_t cells_visited = 0;    ///< cells walked through by all rays
+  std::uint64_t lost_rays = 0;        ///< rays that found no way out: 0
+  std::uint64_t rays_in_packets = 0;  ///< rays walked by packets; the others one by one
+  std::uint64_t surfaces = 0;         ///< isosurfaces crossed, before rays ended
+  std::uint64_t visits = 0;           ///< to interval volumes, before rays ended
   /// What was chosen for this scene and why, one choice a line.
   std::vector<std::string> plan;
 };

@@ -302,6 +302,7 @@ void run(const RenderArguments& args) {
         {"entries", statistics.entries},
         {"cells_visited", statistics.cells_visited},
         {"lost_rays", statistics.lost_rays},
+        {"rays_in_packets", statistics.rays_in_packets},
         {"isosurfaces_crossed", statistics.surfaces},
         {"interval_visits", statistics.visits},
         {"ms",
