@@ -3,26 +3,11 @@
 #include <algorithm>
 
 #include "plume/tests/bench/packet_walker.h"
+#include "plume/tests/bench/plucker_passages.h"
 #include "plume/tests/bench/scalar_walks.h"
 
 namespace plume::bench {
 namespace {
-
-template <PluckerProducts kProducts>
-void walk_plucker_passages(const BenchMesh& mesh, const BenchView& view, Mode mode,
-                           std::span<PassageSum> sums) {
-  with_consumer<float>(mode, [&]<class Consumer>() {
-    for (std::size_t i = 0; i < view.passages.size(); ++i) {
-      const Passage& passage = view.passages[i];
-      const PluckerRay ray(view.rays[passage.ray], mesh.plucker.frame);
-      Consumer consumer(mesh.optics);
-      NoAudit audit;
-      const PluckerWalk walk = walk_plucker<kProducts>(
-          mesh.plucker, ray, mesh.tets.boundary[passage.entry.boundary], consumer, audit);
-      sums[i] = consumer.sum(walk.cells);
-    }
-  });
-}
 
 std::size_t plucker_bytes(const BenchMesh& mesh) { return mesh.plucker.bytes(); }
 
@@ -60,11 +45,9 @@ bool BenchWalker::has(Mode mode) const {
 const std::vector<BenchWalker>& walkers(Family family) {
   static const std::vector<BenchWalker> of_tetrahedra = [] {
     std::vector<BenchWalker> walkers{
-        {"plucker", walk_plucker_passages<PluckerProducts::thesis>, kAllModes, Likeness::rounding,
-         plucker_bytes},
+        {"plucker", walk_thesis_plucker, kAllModes, Likeness::rounding, plucker_bytes},
         {"tet-walker", walk_passages<TetWalker>, kAllModes, Likeness::exact, tets_bytes},
-        {"plucker-fast", walk_plucker_passages<PluckerProducts::relative>, kAllModes,
-         Likeness::rounding, plucker_bytes},
+        {"plucker-fast", walk_relative_plucker, kAllModes, Likeness::rounding, plucker_bytes},
         {"tet-packets", walk_packet_passages, kPacketModes, Likeness::exact, tets_bytes},
     };
     if (packets_have_more_than_avx2())
