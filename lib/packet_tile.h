@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "plume/lib/volume_packets.h"
@@ -54,7 +53,7 @@ class PacketTile {
     double t_min = 0;
     bool valid = false;  // has a direction
     Entries<Walker> all_entries;
-    decltype(make_start(std::declval<Mesh>(), std::declval<ShearedFrame>(), {}, {}, 0, 0)) start;
+    StartOf<Mesh> start;
     std::uint32_t entries = 0;
     bool declined = false;
     bool waiting = false;  // has an entry that was not walked yet

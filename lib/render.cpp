@@ -20,6 +20,7 @@
 #include "plume/lib/packet_tile.h"
 #include "plume/lib/pixel.h"
 #include "plume/lib/rectilinear_tile.h"
+#include "plume/lib/render_plan.h"
 #include "plume/lib/scene_body.h"
 #include "plume/mesh/error.h"
 #include "plume/traverse/packets.h"
@@ -50,12 +51,6 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr double kGap = 1e-6;
 const std::vector<std::string> kChannels{"depth",      "optical_depth", "cell_id",
                                          "cell_count", "isovalue",      "normal"};
-
-// Whether the picture shows more than a volume.
-bool is_classified(const Scene& scene, const RenderSettings& settings) {
-  return !scene.classification().is_plain_volume() &&
-         (settings.mode == Mode::volume || settings.mode == Mode::depth);
-}
 
 void check(const Scene& scene, const RenderSettings& settings) {
   auto in_range = [](int pixels) { return pixels >= 1 && pixels <= 65536; };
@@ -414,92 +409,6 @@ class ProgressReport {
   int done_ = 0;
   std::atomic<bool> cancelled_ = false;
 };
-
-const char* describe_order(ScalarOrder order) {
-  switch (order) {
-    case ScalarOrder::linear:
-      break;
-    case ScalarOrder::quadratic:
-      return "order 2: quadratic, by one value inside of each cell";
-    case ScalarOrder::cubic:
-      return "order 3: cubic, by two values inside of each cell";
-  }
-  return "linear between a cell's faces";
-}
-
-void describe_surfaces(const Scene& scene, const RenderSettings& settings,
-                       std::vector<std::string>& plan) {
-  const Classification& classification = scene.classification();
-  if (!classification.intervals.empty()) {
-    std::vector<std::string> ranges;
-    for (const IntervalVolume& interval : classification.intervals)
-      ranges.push_back(fmt::format("[{:g}, {:g}]", interval.low, interval.high));
-    plan.push_back(fmt::format(
-        "intervals: {}, split in data space, monotone along each ray, {}", fmt::join(ranges, " "),
-        settings.interval_form == IntervalForm::exponential ? "exponential" : "linear"));
-  }
-  if (!classification.isosurfaces.empty()) {
-    std::vector<std::string> values;
-    for (const Isosurface& surface : classification.isosurfaces)
-      values.push_back(fmt::format("{:g}", surface.value));
-    plan.push_back(fmt::format("isosurfaces: {}, {}", fmt::join(values, " "),
-                               settings.order == ScalarOrder::linear ||
-                                       std::string(scene.form()) == "tetrahedra" ||
-                                       scene.field().association == Association::cell
-                                   ? "in closed form"
-                                   : "by isolated roots of each cell's polynomial"));
-  }
-}
-
-std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings& settings) {
-  std::vector<std::string> plan;
-  const std::string form = scene.form();
-  plan.push_back(fmt::format(
-      "walk: {} ({})", form,
-      form == "tetrahedra"         ? "all cells are tetrahedra: the scalar is linear in each"
-      : form == "grid"             ? "one curvilinear grid: neighbours follow from the indices"
-      : form == "rectilinear grid" ? "cuboids between planes: nothing is stored but the scalars"
-                                   : "mixed cells: faces and their two sides are stored"));
-  if (scene.cell_data_averaged())
-    plan.push_back("cell data: averaged to the points, weighted by 1 / distance");
-  plan.push_back(fmt::format("scalar: {}, {}", scene.field().name,
-                             scene.field().association == Association::cell
-                                 ? "constant in each cell, as the field is cell-centred"
-                             : form == "tetrahedra" ? "linear between a cell's faces"
-                                                    : describe_order(settings.order)));
-  if (!settings.clip_planes.empty())
-    plan.push_back(fmt::format("clip planes: {}, where rays are cut", settings.clip_planes.size()));
-  switch (settings.mode) {
-    case Mode::volume: {
-      constexpr const char* kNames[] = {"midpoint", "table", "closed form"};
-      if (!scene.classification().volume)
-        plan.push_back("volume: none");
-      else
-        plan.push_back(fmt::format("integrator: {} ({} knots)",
-                                   kNames[static_cast<int>(settings.integrator.kind)],
-                                   scene.transfer_function().knots.size()));
-      break;
-    }
-    case Mode::maximum:
-      plan.push_back("maximum of the scalar: no optics");
-      break;
-    case Mode::integral:
-      plan.push_back("integral of the scalar: no optics");
-      break;
-    case Mode::depth:
-      plan.push_back(is_classified(scene, settings) ? "first hit of an isosurface or interval"
-                                                    : "first contribution: optical depth alone");
-      break;
-  }
-  if (is_classified(scene, settings)) describe_surfaces(scene, settings, plan);
-  if (settings.lighting)
-    plan.push_back(is_classified(scene, settings)
-                       ? fmt::format("light: {} on isosurfaces{}, by gradients at the points",
-                                     settings.lighting->lights.size(),
-                                     settings.lighting->intervals ? " and intervals" : "")
-                       : "light: nothing to light, as there are no isosurfaces and intervals");
-  return plan;
-}
 
 }  // namespace
 

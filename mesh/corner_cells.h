@@ -9,6 +9,9 @@ namespace plume {
 
 struct WalkableCells;
 
+/// In place of a face's number, in a cell that is no CornerCell.
+inline constexpr std::uint32_t kNoCorners = 7;
+
 /// One line of the cache: the eight corners of a hexahedron, and who is behind its faces. A wedge,
 /// a pyramid or a tetrahedron is one some of whose corners coincide; the faces that have fewer than
 /// three different corners are never crossed.
@@ -21,17 +24,16 @@ struct alignas(64) CornerCell {
   /// 1 where the cell is something else, a polyhedron: the corners then mean nothing.
   std::uint32_t other = 0;
   /// The face that is at the boundary; kNoCorners where none or several are.
-  std::uint32_t boundary = 7;
+  std::uint32_t boundary = kNoCorners;
 };
-
-/// In place of a face's number, in a cell that is no CornerCell.
-inline constexpr std::uint32_t kNoCorners = 7;
 
 /// As many as have all their words within reach of a signed 32-bit index.
 inline constexpr std::uint32_t kMostCornerCells = 0x7FFFFFF;
 
-/// Corners of the faces -a, +a, -b, +b, -c, +c, counterclockwise from outside for the second of
-/// each two, clockwise for the first.
+/// Corners of the faces -a, +a, -b, +b, -c, +c of these, and of the cells of a grid: both cells of
+/// a grid at a face go around it from the same corner in the same direction, so they see the same
+/// numbers. Counterclockwise from outside of a right-handed cell for the second of each two,
+/// clockwise for the first.
 inline constexpr std::uint8_t kCornerLoop[6][4] = {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 4, 5, 1},
                                                    {2, 6, 7, 3}, {0, 1, 3, 2}, {4, 5, 7, 6}};
 

@@ -131,8 +131,10 @@ void face_intersect(const RTCIntersectFunctionNArguments* args) {
     candidates = query.lines->may_enter(corners);
   }
   for (unsigned i = 0; i < args->N; ++i) {
-    if (args->valid[i] == 0 || (candidates >> i & 1) == 0) continue;
-    const QueryRay<Walker>& ray = query.rays[RTCRayN_id(rays, args->N, i)];
+    if (args->valid[i] == 0) continue;
+    const unsigned id = RTCRayN_id(rays, args->N, i);
+    if ((candidates >> id & 1) == 0) continue;
+    const QueryRay<Walker>& ray = query.rays[id];
     const int sign = ray.frame->sign();
     EntryList& list = *ray.found;
     bool found = false;

@@ -113,10 +113,8 @@ class CellSteps {
       odd[f] = hn::Xor(hn::Xor(right[e[0]], right[e[1]]), hn::Xor(right[e[2]], right[e[3]]));
       odd_bits = hn::Or(odd_bits, hn::ShiftLeftSame(hn::ShiftRight<31>(hn::BitCast(du, odd[f])),
                                                     static_cast<int>(f)));
-      // Of winding 2: corners above and below y = 0 in turn, edges on the right and left in turn.
-      const VF in_turn = hn::And(crosses[e[0]], hn::And(crosses[e[1]], crosses[e[2]]));
-      strange = hn::Or(strange, hn::And(in_turn, hn::And(hn::Xor(right[e[0]], right[e[1]]),
-                                                         hn::Xor(right[e[1]], right[e[2]]))));
+      strange = hn::Or(strange, WindsTwice(crosses[e[0]], crosses[e[1]], crosses[e[2]], right[e[0]],
+                                           right[e[1]], right[e[2]]));
     }
     strange = hn::Or(strange, Grazed(corner, crosses, product, odd));
 
@@ -266,46 +264,30 @@ class CellSteps {
   template <bool kMeasure>
   HWY_NOINLINE void AskWalker(State& state, Packet<kMeasure>& packet, unsigned asking,
                               StepResult& result) const {
-    const DF d;
     const DU du;
-    HWY_ALIGN float z[kMaxLanes], s[kMaxLanes], left[kMaxLanes];
+    AskedLanes<kMeasure> asked(result);
     HWY_ALIGN std::uint32_t cell[kMaxLanes], from[kMaxLanes];
     hn::Store(packet.cell, du, cell);
     hn::Store(packet.from, du, from);
-    if constexpr (kMeasure) {
-      hn::Store(result.z, d, z);
-      hn::Store(result.s, d, s);
-    }
-    hn::Store(hn::IfThenElseZero(result.left, hn::Set(d, 1)), d, left);
     for (; asking != 0; asking &= asking - 1) {
       const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(asking);
+      const ShearedFrame& frame = *state.frame[lane];
       const std::uint32_t here = state.cell[lane];
       const std::uint32_t face = state.from[lane] == kNoCorners
                                      ? state.face[lane]
                                      : face_of_corners(mesh_, cells_[here], here, state.from[lane]);
-      CellWalker walker(mesh_, *state.frame[lane]);
+      CellWalker walker(mesh_, frame);
       walker.enter({here, face}, state.rank[lane]);
-      const auto exit = walker.leave();
-      // There always is a way out; without one the ray would end here, as at the boundary.
-      left[lane] = exit && walker.advance() ? 0.0f : 1.0f;
-      if (exit) {
-        z[lane] = static_cast<float>(exit->z);
-        s[lane] = exit->scalar;
-      }
-      if (left[lane] != 0) continue;
+      if (!asked.ask(lane, walker)) continue;
       CellStart next;
-      set_place(next, mesh_, *state.frame[lane], walker.cell(), walker.face(), walker.rank());
+      set_place(next, mesh_, frame, walker.cell(), walker.face(), walker.rank());
       PutPlace(state, lane, next);
       cell[lane] = next.cell;
       from[lane] = next.from;
     }
     packet.cell = hn::Load(du, cell);
     packet.from = hn::Load(du, from);
-    if constexpr (kMeasure) {
-      result.z = hn::Load(d, z);
-      result.s = hn::Load(d, s);
-    }
-    result.left = hn::Gt(hn::Load(d, left), hn::Zero(d));
+    asked.put(result);
   }
 
   const WalkableCells& mesh_;

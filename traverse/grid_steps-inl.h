@@ -203,21 +203,23 @@ class GridSteps {
     several = hn::Or(several, hn::And(hn::Or(hn::Or(side[0], side[1]), side[2]), side[3]));
     const VF odd = Xor3(right[0], right[1], hn::Xor(right[2], right[3]));
     VF strange = hn::Or(several, hn::Not(odd));
-    // A face of winding 2: its corners are above and below y = 0 in turn, its edges cross on the
-    // right and on the left in turn. Twisted faces may be grazed.
     VF before[4];  // the front's edges: do they cross y = 0?
     for (std::size_t m = 0; m < 4; ++m) before[m] = hn::Xor(p.y[m], p.y[(m + 1) % 4]);
-    auto winds_twice = [&](VF c0, VF c1, VF c2, VF right0, VF right1, VF right2) {
-      return hn::And(And3(c0, c1, c2), hn::And(hn::Xor(right0, right1), hn::Xor(right1, right2)));
-    };
-    strange = hn::Or(strange, winds_twice(along[0], along[1], along[2], right_along[0],
-                                          right_along[1], right_along[2]));
+    strange = hn::Or(strange, WindsTwice(along[0], along[1], along[2], right_along[0],
+                                         right_along[1], right_along[2]));
     for (std::size_t m = 0; m < 4; ++m) {
       const std::size_t n = (m + 1) % 4;
-      strange = hn::Or(strange, winds_twice(before[m], across[n], along[m], right[m],
-                                            right_across[n], right_along[m]));
+      strange = hn::Or(strange, WindsTwice(before[m], across[n], along[m], right[m],
+                                           right_across[n], right_along[m]));
     }
-    if (twisted_) strange = hn::Or(strange, Grazed(p, q, side, products));
+    if (twisted_) {
+      // Faces with all corners on one side of y = 0 (or in one place) are not crossed.
+      const VF back_crosses = Or3(along[0], along[1], along[2]);
+      VF side_crosses[4];
+      for (std::size_t m = 0; m < 4; ++m)
+        side_crosses[m] = Or3(before[m], across[(m + 1) % 4], along[m]);
+      strange = hn::Or(strange, Grazed(p, q, side, products, back_crosses, side_crosses));
+    }
 
     const VU index[3] = {packet.index[0], packet.index[1], packet.index[2]};
 
@@ -292,7 +294,6 @@ class GridSteps {
 
   static HWY_INLINE VF Xor3(VF a, VF b, VF c) { return hn::Xor(a, hn::Xor(b, c)); }
   static HWY_INLINE VF Or3(VF a, VF b, VF c) { return hn::Or(a, hn::Or(b, c)); }
-  static HWY_INLINE VF And3(VF a, VF b, VF c) { return hn::And(a, hn::And(b, c)); }
 
   // Products of the back's corners m with other points, as far as several faces need them.
   struct Products {
@@ -301,10 +302,11 @@ class GridSteps {
   };
 
   // Lanes in which a face other than the front of even winding may be crossed twice all the same.
-  // `odd_sides` are those of odd winding.
+  // `odd_sides` are those of odd winding, and `..._crosses` tells where any edge crosses y = 0.
   template <bool kMeasure>
   static HWY_INLINE VF Grazed(const QuadLanes<kMeasure>& p, const QuadLanes<kMeasure>& q,
-                              const VF (&odd_sides)[4], const Products& products) {
+                              const VF (&odd_sides)[4], const Products& products, VF back_crosses,
+                              const VF (&side_crosses)[4]) {
     const DF d;
     VF x = hn::Zero(d), y = hn::Zero(d);
     for (std::size_t m = 0; m < 4; ++m) {
@@ -316,16 +318,17 @@ class GridSteps {
     const VF* const k = products.with_next;
     const VF back_odd =
         hn::Not(hn::Xor(hn::Xor(odd_sides[0], odd_sides[1]), hn::Xor(odd_sides[2], odd_sides[3])));
-    VF grazed = hn::Not(hn::Or(back_odd, test.PassedBy(k[0], hn::Neg(k[2]), hn::Neg(k[3]), k[1],
-                                                       product(q.x[0], q.y[0], q.x[2], q.y[2]),
-                                                       product(q.x[1], q.y[1], q.x[3], q.y[3]))));
+    const VF back_passed = test.PassedBy(k[0], hn::Neg(k[2]), hn::Neg(k[3]), k[1],
+                                         product(q.x[0], q.y[0], q.x[2], q.y[2]),
+                                         product(q.x[1], q.y[1], q.x[3], q.y[3]));
+    VF grazed = hn::AndNot(hn::Or(back_odd, back_passed), back_crosses);
     for (std::size_t m = 0; m < 4; ++m) {
       const std::size_t n = (m + 1) % 4;
       const VF passed = test.PassedBy(
           product(p.x[m], p.y[m], p.x[n], p.y[n]), k[m], hn::Neg(products.with_front[m]),
           hn::Neg(products.with_front[n]), product(p.x[m], p.y[m], q.x[n], q.y[n]),
           product(p.x[n], p.y[n], q.x[m], q.y[m]));
-      grazed = hn::Or(grazed, hn::Not(hn::Or(odd_sides[m], passed)));
+      grazed = hn::Or(grazed, hn::AndNot(hn::Or(odd_sides[m], passed), side_crosses[m]));
     }
     return grazed;
   }
@@ -398,37 +401,20 @@ class GridSteps {
   HWY_NOINLINE void AskWalker(State& state, Packet<kMeasure>& packet, unsigned asking,
                               const std::uint32_t* cell, const std::uint32_t* from,
                               StepResult& result) const {
-    const DF d;
-    HWY_ALIGN float z[kMaxLanes], s[kMaxLanes], left[kMaxLanes];
+    AskedLanes<kMeasure> asked(result);
     packet.Store(state);
-    if constexpr (kMeasure) {
-      hn::Store(result.z, d, z);
-      hn::Store(result.s, d, s);
-    }
-    hn::Store(hn::IfThenElseZero(result.left, hn::Set(d, 1)), d, left);
     for (; asking != 0; asking &= asking - 1) {
       const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(asking);
       const ShearedFrame& frame = *state.frame[lane];
       GridWalker walker(mesh_, frame);
       walker.enter({cell[lane], from[lane]}, state.rank[lane]);
-      const auto exit = walker.leave();
-      // There always is a way out; without one the ray would end here, as at the boundary.
-      left[lane] = exit && walker.advance() ? 0.0f : 1.0f;
-      if (exit) {
-        z[lane] = static_cast<float>(exit->z);
-        s[lane] = exit->scalar;
-      }
-      if (left[lane] != 0) continue;
+      if (!asked.ask(lane, walker)) continue;
       GridStart next;
       set_place(next, mesh_, frame, walker.cell(), walker.face(), walker.rank());
       PutPlace(state, lane, next);
     }
     packet.Load(state);
-    if constexpr (kMeasure) {
-      result.z = hn::Load(d, z);
-      result.s = hn::Load(d, s);
-    }
-    result.left = hn::Gt(hn::Load(d, left), hn::Zero(d));
+    asked.put(result);
   }
 
   const WalkableGrid& mesh_;

@@ -38,7 +38,7 @@ class BasicGridWalker {
     const std::uint32_t first = mesh_.first_point(boundary.cell);
     std::array<ShearedPoint, 4> p;
     for (std::size_t i = 0; i < 4; ++i)
-      p[i] = frame_(mesh_.points[first + step_[kHexahedronLoop[boundary.face][i]]]);
+      p[i] = frame_(mesh_.points[first + step_[kCornerLoop[boundary.face][i]]]);
     const Quad quad{p[0], p[1], p[2], p[3]};
     const bool planar = is_planar(first, boundary.face);
     const QuadCrossings crossings = Faces::crossings(quad, winding(quad), planar);
@@ -64,7 +64,7 @@ class BasicGridWalker {
     std::array<ShearedPoint, 8> corner;
     for (std::size_t c = 0; c < 8; ++c) corner[c] = frame_(mesh_.points[first_ + step_[c]]);
     auto quad = [&](std::size_t face) {
-      const auto& loop = kHexahedronLoop[face];
+      const auto& loop = kCornerLoop[face];
       return Quad{corner[loop[0]], corner[loop[1]], corner[loop[2]], corner[loop[3]]};
     };
 

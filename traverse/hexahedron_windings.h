@@ -5,16 +5,10 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "plume/mesh/corner_cells.h"
 #include "plume/traverse/sheared_frame.h"
 
 namespace plume {
-
-/// Corners of the faces -i, +i, -j, +j, -k, +k of a cell of a grid, corner (a, b, c) being
-/// a + 2b + 4c. Both cells at a face go around it from the same corner in the same direction, so
-/// they see the same numbers; from outside of a right-handed cell that is counterclockwise for +i,
-/// +j and +k.
-inline constexpr std::uint8_t kHexahedronLoop[6][4] = {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 4, 5, 1},
-                                                       {2, 6, 7, 3}, {0, 1, 3, 2}, {4, 5, 7, 6}};
 
 class HexahedronWindings {
  public:

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "plume/mesh/walkable_cells.h"
 #include "plume/mesh/walkable_grid.h"
@@ -130,26 +131,17 @@ inline void set_start(CellStart& start, const WalkableCells& mesh, const Sheared
   set_place(start, mesh, frame, face.cell, face.face, rank);
 }
 
-/// The same by value.
-inline TetStart make_start(const WalkableTets& mesh, const ShearedFrame& frame,
-                           const WalkableTets::Boundary& face, const Crossing& place,
-                           std::uint32_t rank, std::uint32_t ray) {
-  TetStart start;
-  set_start(start, mesh, frame, face, place, rank, ray);
-  return start;
-}
-inline GridStart make_start(const WalkableGrid& mesh, const ShearedFrame& frame,
-                            const BoundaryFace& face, const Crossing& place, std::uint32_t rank,
-                            std::uint32_t ray) {
-  GridStart start;
-  set_start(start, mesh, frame, face, place, rank, ray);
-  return start;
-}
+/// What rays through a mesh start with.
+template <class Mesh>
+using StartOf = std::conditional_t<
+    std::is_same_v<Mesh, WalkableTets>, TetStart,
+    std::conditional_t<std::is_same_v<Mesh, WalkableGrid>, GridStart, CellStart>>;
 
-inline CellStart make_start(const WalkableCells& mesh, const ShearedFrame& frame,
-                            const BoundaryFace& face, const Crossing& place, std::uint32_t rank,
-                            std::uint32_t ray) {
-  CellStart start;
+/// set_start() by value.
+template <class Mesh, class Boundary>
+StartOf<Mesh> make_start(const Mesh& mesh, const ShearedFrame& frame, const Boundary& face,
+                         const Crossing& place, std::uint32_t rank, std::uint32_t ray) {
+  StartOf<Mesh> start;
   set_start(start, mesh, frame, face, place, rank, ray);
   return start;
 }

@@ -92,6 +92,46 @@ struct StepResult {
   MF left;
 };
 
+// A step's results while scalar walkers take it over in some lanes.
+template <bool kMeasure>
+class AskedLanes {
+ public:
+  explicit AskedLanes(const StepResult& result) {
+    const DF d;
+    if constexpr (kMeasure) {
+      hn::Store(result.z, d, z_);
+      hn::Store(result.s, d, s_);
+    }
+    hn::Store(hn::IfThenElseZero(result.left, hn::Set(d, 1)), d, left_);
+  }
+
+  // Takes the step of a walker that is in the lane's cell. False where the ray leaves the mesh.
+  template <class Walker>
+  bool ask(std::size_t lane, Walker& walker) {
+    const auto exit = walker.leave();
+    // There always is a way out; without one the ray would end here, as at the boundary.
+    const bool goes_on = exit && walker.advance();
+    left_[lane] = goes_on ? 0.0f : 1.0f;
+    if (exit) {
+      z_[lane] = static_cast<float>(exit->z);
+      s_[lane] = exit->scalar;
+    }
+    return goes_on;
+  }
+
+  void put(StepResult& result) const {
+    const DF d;
+    if constexpr (kMeasure) {
+      result.z = hn::Load(d, z_);
+      result.s = hn::Load(d, s_);
+    }
+    result.left = hn::Gt(hn::Load(d, left_), hn::Zero(d));
+  }
+
+ private:
+  HWY_ALIGN float z_[kMaxLanes], s_[kMaxLanes], left_[kMaxLanes];
+};
+
 // Points in the lanes' sheared frames: ShearedFrame's operator(). `axis` is the rays' longest axis,
 // the same for all lanes.
 struct ShearedLanes {

@@ -3,7 +3,6 @@
 #include <array>
 #include <cassert>
 #include <cmath>
-#include <utility>
 #include <vector>
 
 #include "hwy/targets.h"
@@ -12,10 +11,6 @@
 
 namespace plume::bench {
 namespace {
-
-template <class Form>
-using StartOf = decltype(make_start(std::declval<Form>(), std::declval<ShearedFrame>(),
-                                    std::declval<Form>().boundary[0], {}, 0, 0));
 
 // Passages of one axis; a lane's start is made when it is asked for, as in a renderer.
 template <class Form>

@@ -48,8 +48,7 @@ void expect_twins(const Mesh& user_mesh, const typename Walker::Mesh& mesh, std:
   AdversarialRays make_ray(user_mesh, bounds_of(user_mesh.points), 31);
 
   // The twin's first passage of each ray.
-  using Start =
-      decltype(make_start(mesh, std::declval<ShearedFrame>(), mesh.boundary[0], {}, 0, 0));
+  using Start = StartOf<typename Walker::Mesh>;
   std::vector<std::vector<Start>> starts(3);
   std::vector<std::vector<Segment>> expected;
   std::deque<ShearedFrame> frames;  // starts refer to them
