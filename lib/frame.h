@@ -93,9 +93,9 @@ class Frame {
   void for_each_pixel(const Tile& tile, Visit&& visit) const {
     for (const auto& [along, down] : kTileOrder) {
       const int x = tile.x + along, y = tile.y + down;
-      if (x >= settings_.width || y >= settings_.height) continue;
+      if (x >= window_.width || y >= window_.height) continue;
       visit(PixelPlace{x, y,
-                       static_cast<std::size_t>(y) * static_cast<std::size_t>(settings_.width) +
+                       static_cast<std::size_t>(y) * static_cast<std::size_t>(window_.width) +
                            static_cast<std::size_t>(x)});
     }
   }

@@ -11,16 +11,19 @@
 namespace plume {
 namespace {
 
-constexpr int kSmall = 48;   // pixels along the longer side of the small version
-constexpr int kWindow = 8;   // and along the sides of windows
-constexpr int kWindows = 6;  // of these
+// Pixels along the longer side of the small version: one in four of the picture's, but no fewer and
+// no more than these.
+constexpr int kSmallest = 48, kLargest = 160;
+constexpr int kWindow = 8;    // pixels along the sides of windows
+constexpr int kWindows = 12;  // of these
 
 }  // namespace
 
 Pilot::Pilot(const Scene& scene, const Camera& camera, const RenderSettings& reference)
     : scene_(scene), camera_(camera), reference_(reference) {
   const int longer = std::max(reference.width, reference.height);
-  const double scale = std::min(1.0, static_cast<double>(kSmall) / longer);
+  const int aimed = std::clamp(longer / 4, kSmallest, kLargest);
+  const double scale = std::min(1.0, static_cast<double>(aimed) / longer);
   // The aspect ratio need not be met: pixels are pixels.
   width_ = std::max(1, static_cast<int>(std::lround(scale * reference.width)));
   height_ = std::max(1, static_cast<int>(std::lround(scale * reference.height)));
@@ -54,17 +57,39 @@ std::vector<Pilot::Place> Pilot::worst_places(const Image& picture) const {
   }
   std::vector<std::size_t> order(count);
   std::iota(order.begin(), order.end(), std::size_t{0});
-  const auto taken = std::min<std::size_t>(kWindows, count);
-  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(taken), order.end(),
-                    [&](std::size_t a, std::size_t b) {
-                      return error[a] != error[b] ? error[a] > error[b] : a < b;
-                    });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return error[a] > error[b]; });
   std::vector<Place> places;
-  for (std::size_t k = 0; k < taken; ++k) {
-    if (!(error[order[k]] > 0)) break;
-    places.push_back({static_cast<int>(order[k]) % width_, static_cast<int>(order[k]) / width_});
+  for (const std::size_t pixel : order) {
+    if (!(error[pixel] > 0) || places.size() == kWindows) break;
+    const Place place{static_cast<int>(pixel) % width_, static_cast<int>(pixel) / width_};
+    // Not where another window lies already.
+    const bool is_new = std::none_of(places.begin(), places.end(), [&](const Place& other) {
+      return std::abs(other.x - place.x) <= 1 && std::abs(other.y - place.y) <= 1;
+    });
+    if (is_new) places.push_back(place);
   }
   return places;
+}
+
+PixelWindow Pilot::window_around(const Place& place) const {
+  auto first = [](int at, int small_size, int size) {
+    const int middle = static_cast<int>((at + 0.5) * size / small_size);
+    return std::clamp(middle - kWindow / 2, 0, std::max(0, size - kWindow));
+  };
+  return {first(place.x, width_, reference_.width), first(place.y, height_, reference_.height),
+          std::min(kWindow, reference_.width), std::min(kWindow, reference_.height)};
+}
+
+const Image& Pilot::reference_in(const PixelWindow& window) {
+  const auto [found, is_new] = window_references_.try_emplace({window.x, window.y});
+  if (is_new) {
+    RenderSettings settings = reference_;
+    settings.window = window;
+    settings.channels.clear();
+    found->second = render(scene_, camera_, settings).image;
+  }
+  return found->second;
 }
 
 double Pilot::error_of(const RenderSettings& settings) {
@@ -73,22 +98,13 @@ double Pilot::error_of(const RenderSettings& settings) {
   pixels_ = picture.rgba.size() / 4;
   if (width_ == reference_.width && height_ == reference_.height) return error;
   for (const Place& place : worst_places(picture)) {
-    // The window around the place that the small version's pixel shows.
-    auto first = [](int at, int small_size, int size) {
-      const int middle = static_cast<int>((at + 0.5) * size / small_size);
-      return std::clamp(middle - kWindow / 2, 0, std::max(0, size - kWindow));
-    };
-    const PixelWindow window{
-        first(place.x, width_, reference_.width), first(place.y, height_, reference_.height),
-        std::min(kWindow, reference_.width), std::min(kWindow, reference_.height)};
-    RenderSettings here = settings, right = reference_;
-    here.window = right.window = window;
+    RenderSettings here = settings;
+    here.window = window_around(place);
     here.channels.clear();
-    right.channels.clear();
-    error = std::max(error, greatest_difference(render(scene_, camera_, here).image,
-                                                render(scene_, camera_, right).image,
-                                                reference_.mode, shade_width_));
-    pixels_ += static_cast<std::size_t>(window.width) * static_cast<std::size_t>(window.height);
+    const Image there = render(scene_, camera_, here).image;
+    error = std::max(error, greatest_difference(there, reference_in(*here.window), reference_.mode,
+                                                shade_width_));
+    pixels_ += there.rgba.size() / 4;
   }
   return error;
 }

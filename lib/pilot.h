@@ -1,7 +1,9 @@
 /// A look at a picture's error before it is rendered.
 #pragma once
 
+#include <compare>
 #include <cstddef>
+#include <map>
 #include <vector>
 
 #include "plume/lib/render.h"
@@ -26,9 +28,12 @@ class Pilot {
  private:
   struct Place {
     int x, y;
+    auto operator<=>(const Place&) const = default;
   };
   RenderSettings small(RenderSettings settings) const;
   std::vector<Place> worst_places(const Image& picture) const;
+  PixelWindow window_around(const Place& place) const;
+  const Image& reference_in(const PixelWindow& window);
 
   const Scene& scene_;
   const Camera& camera_;
@@ -36,6 +41,7 @@ class Pilot {
   int width_, height_;  // of the small version
   Image small_reference_;
   double shade_width_;
+  std::map<Place, Image> window_references_;  // by the windows' first pixels
   std::size_t pixels_ = 0;
 };
 

@@ -49,17 +49,28 @@ const char* name_of(ScalarOrder order) {
   return kNames[static_cast<int>(order)];
 }
 
-// Chooses the order; returns the share of the tolerance that is spent on it.
+bool has_optics(Mode mode) {
+  return mode == Mode::volume || mode == Mode::optical_depth || mode == Mode::depth;
+}
+
+// Chooses the order, and how closely its segments are followed.
 void choose_order(const Scene& scene, const Camera& camera, RenderSettings& settings,
                   double max_error, double allowed, std::vector<std::string>& reasons) {
   const RenderSettings reference = reference_settings(settings, max_error);
   Pilot pilot(scene, camera, reference);
   std::string tried;
+  settings.order = ScalarOrder::adaptive;  // none tried yet
   for (const Candidate& candidate : kCandidates) {
+    if (candidate.scalar_tolerance < reference.scalar_tolerance) break;
+    // Whoever asks no optics sees no linear parts.
+    if (candidate.order == settings.order && candidate.order != ScalarOrder::adaptive &&
+        !has_optics(settings.mode))
+      continue;
     settings.order = candidate.order;
     settings.scalar_tolerance = candidate.scalar_tolerance;
-    if (candidate.scalar_tolerance < reference.scalar_tolerance) break;
-    const double error = kSafety * pilot.error_of(settings);
+    RenderSettings whole = settings;
+    whole.early_termination = 0;  // it has a share of its own
+    const double error = kSafety * pilot.error_of(whole);
     if (error <= allowed) {
       reasons.push_back(fmt::format(
           "order of the scalar: {}, at an error of {:.1g} (twice the greatest of {} pixels "
@@ -80,7 +91,7 @@ void choose_order(const Scene& scene, const Camera& camera, RenderSettings& sett
 RenderSettings reference_settings(RenderSettings settings, double max_error) {
   settings.tolerance.reset();
   settings.order = ScalarOrder::adaptive;
-  settings.scalar_tolerance = std::max(1e-6, 1e-3 * max_error);
+  settings.scalar_tolerance = std::clamp(1e-3 * max_error, 1e-6, 1e-5);
   settings.integrator = {};
   settings.early_termination = 0;
   settings.scalar_twin = true;

@@ -14,8 +14,8 @@
 ///   windows around the places where the small version is worst. The greatest difference is taken
 ///   twice. It is an estimate; tests/lib/planner_test.cpp and docs/evidence.md say how it fares.
 ///
-/// The reference is order `adaptive` at a thousandth of the tolerance (1e-6 of the field's range at
-/// least), by whole rays. Where no candidate will do, it is the plan.
+/// The reference is order `adaptive` at a thousandth of the tolerance, 1e-6 to 1e-5 of the field's
+/// range, by whole rays. Where no candidate will do, it is the plan.
 #pragma once
 
 #include <string>
