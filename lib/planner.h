@@ -12,7 +12,8 @@
 ///   cancel, and is infinite where a cell is degenerate. So candidates are compared with the
 ///   reference on this very picture: on a small version of all of it, and then, pixel by pixel, in
 ///   windows around the places where the small version is worst. The greatest difference is taken
-///   twice. It is an estimate; tests/lib/planner_test.cpp and docs/evidence.md say how it fares.
+///   twice, in the modes of extrema five times. It is an estimate: tests/lib/planner_test.cpp and
+///   docs/evidence.md say how it fares.
 ///
 /// The reference is order `adaptive` at a thousandth of the tolerance, 1e-6 to 1e-5 of the field's
 /// range, by whole rays. Where no candidate will do, it is the plan.

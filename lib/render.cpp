@@ -84,6 +84,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   RenderSettings effective =
       settings.tolerance ? plan_for(scene, camera, settings, reasons) : settings;
   result.statistics.seconds_planning = (tbb::tick_count::now() - start).seconds();
+  result.statistics.order = effective.order;
   Frame frame(scene, camera, effective);
   std::vector<std::string>& plan = result.statistics.plan;
   plan = describe_plan(scene, effective);

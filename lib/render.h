@@ -117,6 +117,8 @@ struct RenderStatistics {
   std::uint64_t surfaces = 0;         ///< isosurfaces crossed, before rays ended
   std::uint64_t visits = 0;           ///< to interval volumes, before rays ended
   double seconds_planning = 0;        ///< spent on finding a plan for a tolerance
+  /// The order that was taken: the settings', or the plan's.
+  ScalarOrder order = ScalarOrder::linear;
   /// What a mode's numbers run from and to, in its channel's unit; nothing in the mode volume and
   /// where no ray has one.
   std::optional<std::array<float, 2>> values;
