@@ -72,4 +72,11 @@ expect '^208 cells' ./viewer_by_pkg_config box.vtu picture.png
 cc "$source_dir/examples/embed.c" $(pkg-config --cflags --libs plume-c) \
   -Wl,-rpath,"$(pkg-config --variable=libdir plume-c)" -o c_by_pkg_config
 expect "$cxx_says" ./c_by_pkg_config
+
+# The Python package, where it was built: PYTHON is set then.
+if [ -n "${PYTHON:-}" ]; then
+  PYTHONPATH=$(dirname "$(dirname "$(find "$prefix" -path '*/plume/__init__.py')")")
+  export PYTHONPATH
+  expect "$cxx_says" "$PYTHON" "$source_dir/examples/embed.py"
+fi
 echo "all consumers were built and ran"
