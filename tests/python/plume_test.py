@@ -90,8 +90,8 @@ class Arrays(unittest.TestCase):
         held = [points, tetrahedra, field]
         before = [sys.getrefcount(array) for array in held]
         scene = plume.Scene(plume.Mesh(points, tetrahedra), field, fields_change=True)
-        for i in range(3):
-            self.assertGreater(sys.getrefcount(held[i]), before[i])
+        during = [sys.getrefcount(array) for array in held]
+        self.assertTrue(all(now > then for now, then in zip(during, before)), (during, before))
         expected = scene.render(SIZE).rgba
         del scene
         gc.collect()
