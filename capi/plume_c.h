@@ -211,10 +211,14 @@ typedef struct plume_settings plume_settings;
 
 /** What a pixel shows. */
 typedef enum plume_mode {
-  PLUME_VOLUME = 0,   /**< Emission and absorption, with isosurfaces. The default. */
-  PLUME_MAXIMUM = 1,  /**< The greatest value along the ray. */
-  PLUME_INTEGRAL = 2, /**< The integral of the field along the ray, as a shade of gray. */
-  PLUME_DEPTH = 3     /**< The distance to what is seen first, as a shade of gray. */
+  PLUME_VOLUME = 0,        /**< Emission and absorption, with isosurfaces. The default. */
+  PLUME_MAXIMUM = 1,       /**< The greatest value along the ray, in its colour. */
+  PLUME_INTEGRAL = 2,      /**< The integral of the field along the ray, as a shade of gray. */
+  PLUME_DEPTH = 3,         /**< The distance to what is seen first, as a shade of gray. */
+  PLUME_MINIMUM = 4,       /**< The least value along the ray, in its colour. */
+  PLUME_AVERAGE = 5,       /**< The integral by the length of the ray in the mesh, in its colour. */
+  PLUME_OPTICAL_DEPTH = 6, /**< The volume's optical depth, as a shade of gray. */
+  PLUME_CELL_COUNT = 7     /**< How many cells the ray goes through, as a shade of gray. */
 } plume_mode;
 
 /** Settings with their defaults. */
@@ -240,7 +244,7 @@ PLUME_C_EXPORT plume_status plume_settings_add_clip_plane(plume_settings* settin
                                                           const double normal[3]);
 /** Has another channel of the picture written to `values`, width * height floats, the first row at
  * the top: "depth" (distance to what is seen first, infinity where nothing is), "optical_depth",
- * "cell_count", or, in their modes, "maximum" or "integral". */
+ * "cell_count", or the numbers of a mode under its name: "maximum", "integral", ... */
 PLUME_C_EXPORT plume_status plume_settings_add_channel(plume_settings* settings, const char* name,
                                                        float* values);
 /** A function that is called with the share done, 0 to 1, by any thread but never by two at once;

@@ -1,12 +1,24 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "plume/capi/handles.h"
+#include "plume/lib/render_modes.h"
 
 using namespace plume::capi;
 
 namespace {
+
+constexpr std::pair<plume_mode, plume::Mode> kModes[] = {
+    {PLUME_VOLUME, plume::Mode::volume},
+    {PLUME_MAXIMUM, plume::Mode::maximum},
+    {PLUME_INTEGRAL, plume::Mode::integral},
+    {PLUME_DEPTH, plume::Mode::depth},
+    {PLUME_MINIMUM, plume::Mode::minimum},
+    {PLUME_AVERAGE, plume::Mode::average},
+    {PLUME_OPTICAL_DEPTH, plume::Mode::optical_depth},
+    {PLUME_CELL_COUNT, plume::Mode::cell_count}};
 
 template <class Change>
 plume_status change(plume_settings* settings, const char* function, const Change& body) {
@@ -59,20 +71,11 @@ void plume_settings_free(plume_settings* settings) { delete settings; }
 
 plume_status plume_settings_set_mode(plume_settings* settings, plume_mode mode) {
   return change(settings, __func__, [&] {
-    switch (mode) {
-      case PLUME_VOLUME:
-        settings->settings.mode = plume::Mode::volume;
+    for (const auto& [number, ours] : kModes)
+      if (mode == number) {
+        settings->settings.mode = ours;
         return;
-      case PLUME_MAXIMUM:
-        settings->settings.mode = plume::Mode::maximum;
-        return;
-      case PLUME_INTEGRAL:
-        settings->settings.mode = plume::Mode::integral;
-        return;
-      case PLUME_DEPTH:
-        settings->settings.mode = plume::Mode::depth;
-        return;
-    }
+      }
     throw plume::Error(fmt::format("no mode has the number {}", static_cast<int>(mode)));
   });
 }
@@ -136,13 +139,11 @@ plume_status plume_render(const plume_scene* scene, const plume_camera* camera,
     if (settings != nullptr) effective = *settings;
     effective.settings.width = width;
     effective.settings.height = height;
-    for (const auto& channel : effective.channels) {
-      // What a mode makes by itself need not be asked for.
-      const bool of_mode =
-          (channel.name == "maximum" && effective.settings.mode == plume::Mode::maximum) ||
-          (channel.name == "integral" && effective.settings.mode == plume::Mode::integral);
-      if (!of_mode) effective.settings.channels.push_back(channel.name);
-    }
+    // What a mode makes by itself need not be asked for.
+    const char* const of_mode = plume::in_words(effective.settings.mode).channel;
+    for (const auto& channel : effective.channels)
+      if (of_mode == nullptr || channel.name != of_mode)
+        effective.settings.channels.push_back(channel.name);
     const plume::RenderResult result =
         plume::render(scene->scene, camera_of(*camera), effective.settings, effective.progress);
     for (const auto& [name, values] : effective.channels) {

@@ -327,7 +327,11 @@ Scene.camera() makes one that sees all of a scene.)")
              self.settings.mode = chosen<Mode>({{"volume", Mode::volume},
                                                 {"maximum", Mode::maximum},
                                                 {"integral", Mode::integral},
-                                                {"depth", Mode::depth}},
+                                                {"depth", Mode::depth},
+                                                {"minimum", Mode::minimum},
+                                                {"average", Mode::average},
+                                                {"optical_depth", Mode::optical_depth},
+                                                {"cell_count", Mode::cell_count}},
                                                mode, "mode");
            })
       .def("set_order",

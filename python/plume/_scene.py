@@ -17,8 +17,8 @@ class Picture:
     rgba : (height, width, 4) float32
         Linear colour, premultiplied by alpha; the first row is the top.
     channels : dict
-        (height, width) float32 arrays: those that were asked for, and "integral", "maximum" or
-        "depth" in the mode of that name.
+        (height, width) float32 arrays: those that were asked for, and the numbers of a mode that
+        shows some, under its name.
     statistics : dict
         Counts of rays and cells, and the "plan": what was chosen for this picture, and why.
     cancelled : bool
@@ -185,9 +185,12 @@ class Scene:
             Pixels, 1 to 65536 each.
         camera : Camera or str
             As from :meth:`camera`, or the name of a view.
-        mode : "volume", "maximum", "integral" or "depth"
-            What a pixel shows: emission and absorption, the greatest value along the ray, the
-            field's integral along it (channel "integral"), the distance to what is seen first.
+        mode : str
+            What a pixel shows: emission and absorption ("volume"), or one number a ray, which is
+            then in the channel of the mode's name: the greatest value along the ray ("maximum"),
+            the least ("minimum"), the field's integral along it ("integral") or that by the ray's
+            length in the mesh ("average"), the distance to what is seen first ("depth"), the
+            volume's "optical_depth", or how many cells there are ("cell_count").
         order : 1, 2 or 3
             The scalar inside of cells that are no tetrahedra is linear, quadratic or cubic along a
             ray.
