@@ -25,6 +25,7 @@ enum class CellData : std::uint8_t {
   averaged,  ///< made point data, weighted by 1 / distance; see mesh/cell_to_point.h
 };
 
+/// Which field a scene shows, and what it keeps besides what every picture needs.
 struct SceneOptions {
   /// Which field; by default the mesh's active one, else its first.
   FieldRequest field;
@@ -49,9 +50,11 @@ class Scene {
   /// Throws Error where the mesh or the field request is wrong.
   explicit Scene(const Mesh& mesh, const SceneOptions& options = {});
   ~Scene();
+  /// What was moved from can be assigned to and destroyed, no more.
   Scene(Scene&&) noexcept;
-  Scene& operator=(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;  ///< likewise
 
+  /// Of all points, in world coordinates.
   const Bounds& bounds() const;
   /// The chosen field: name, association, range, count of values that are not finite. Its values
   /// are empty: they live in the walkable form. Cell data that was averaged is point data here.
@@ -62,9 +65,9 @@ class Scene {
   const std::vector<Finding>& findings() const;
   /// "tetrahedra", "grid", "cells" or "rectilinear grid": the form in which the mesh is walked.
   const char* form() const;
-  std::size_t cell_count() const;
-  std::size_t point_count() const;
-  std::size_t boundary_face_count() const;
+  std::size_t cell_count() const;           ///< cells that are walked
+  std::size_t point_count() const;          ///< points that they use
+  std::size_t boundary_face_count() const;  ///< faces with one cell
   /// Parts that hang together by faces, counted at each call.
   std::size_t connected_part_count() const;
   /// Bytes of the walkable form, the boundary's hierarchy not included.
