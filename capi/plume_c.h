@@ -253,7 +253,8 @@ PLUME_C_EXPORT plume_status plume_settings_set_progress(plume_settings* settings
                                                         int (*progress)(void* user, double share),
                                                         void* user);
 
-/** Renders a picture into the caller's memory.
+/** Renders a picture into the caller's memory. It is made beside it and copied when it is done, so
+ * that nothing is half-written: for as long, it takes the same memory again.
  *
  * @param scene     what is seen.
  * @param camera    from where.

@@ -216,6 +216,8 @@ class Scene:
         if light is None:
             light = self._lit
         if light is not False:
+            if not self._lit:
+                raise Error("light needs gradients of the field: Scene(..., light=True)")
             arguments.set_lights([None if light is True else tuple(map(float, light))])
         for plane in clip:
             x, y, z, nx, ny, nz = (float(number) for number in plane)

@@ -264,7 +264,7 @@ class Errors(unittest.TestCase):
                 ("0x10", lambda: scene.render((0, 10))),
                 ("no channel 'smell'", lambda: scene.render(SIZE, channels=["smell"])),
                 ("sideways", lambda: scene.render(SIZE, camera="sideways")),
-                ("keep_gradients", lambda: scene.render(SIZE, light=True)),
+                ("Scene(..., light=True)", lambda: scene.render(SIZE, light=True)),
                 ("shape (3,)", lambda: plume.to_srgb(np.zeros(3)))):
             with self.subTest(words):
                 self.refuses(words, act)
