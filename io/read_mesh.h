@@ -11,6 +11,7 @@
 
 namespace plume {
 
+/// What a file's name does not say.
 struct ReadOptions {
   /// Plot3D: the q file that belongs to the grid.
   std::filesystem::path solution{};

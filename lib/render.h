@@ -62,6 +62,7 @@ struct Tolerance {
   bool choose_early_termination = true;
 };
 
+/// What a picture shows, by which methods, and how large it is.
 struct RenderSettings {
   int width = 1024;  ///< pixels, 1 to 65536
   int height = 768;  ///< pixels, 1 to 65536
@@ -70,7 +71,7 @@ struct RenderSettings {
   /// The cheapest plan that keeps to this error is made and taken (lib/planner.h says how, and what
   /// of it is a bound and what is measured). The statistics' plan says which and why.
   std::optional<Tolerance> tolerance;
-  Mode mode = Mode::volume;
+  Mode mode = Mode::volume;  ///< what a pixel shows
   /// Of the volume.
   IntegratorSettings integrator;
   /// Of interval volumes; `linear` is there to compare.
@@ -107,8 +108,9 @@ struct RenderSettings {
   std::vector<std::string> channels;
 };
 
+/// Counts over all rays of a picture, and the plan.
 struct RenderStatistics {
-  std::uint64_t rays = 0;
+  std::uint64_t rays = 0;             ///< one a pixel
   std::uint64_t rays_hit = 0;         ///< rays that came into the mesh
   std::uint64_t entries = 0;          ///< times that a ray came in through the boundary
   std::uint64_t cells_visited = 0;    ///< cells walked through by all rays
@@ -126,9 +128,10 @@ struct RenderStatistics {
   std::vector<std::string> plan;
 };
 
+/// A picture and what it took.
 struct RenderResult {
-  Image image;
-  RenderStatistics statistics;
+  Image image;                  ///< see Image
+  RenderStatistics statistics;  ///< see RenderStatistics
   /// True where the progress callback asked to stop; the image is then incomplete.
   bool cancelled = false;
 };

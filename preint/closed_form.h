@@ -26,8 +26,10 @@ class ClosedForm {
   /// Requires !transfer_function.problem(). Keeps a copy.
   explicit ClosedForm(const TransferFunction& transfer_function) : depth_(transfer_function) {}
 
+  /// See SegmentIntegrator.
   SegmentColor integrate(float s_in, float s_out, float length) const;
 
+  /// See SegmentIntegrator.
   float optical_depth(float s_in, float s_out, float length) const {
     return depth_(s_in, s_out, length);
   }

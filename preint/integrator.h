@@ -10,10 +10,12 @@
 
 namespace plume {
 
+/// See the classes MidpointIntegrator, PreintegratedTable and ClosedForm.
 enum class IntegratorKind { midpoint, table, closed_form };
 
+/// An integrator and what it reads.
 struct IntegratorSettings {
-  IntegratorKind kind = IntegratorKind::closed_form;
+  IntegratorKind kind = IntegratorKind::closed_form;  ///< which one
   /// Samples per segment, >= 1; read by `midpoint` alone.
   int samples = 1;
   /// Read by `table` alone.

@@ -12,6 +12,7 @@
 
 namespace plume {
 
+/// Size and reach of a PreintegratedTable.
 struct TableSettings {
   /// Entries along each of the two axes of scalars; >= 2.
   int scalar_count = 128;
@@ -51,6 +52,7 @@ class PreintegratedTable {
   explicit PreintegratedTable(const TransferFunction& transfer_function,
                               const TableSettings& settings = {});
 
+  /// See SegmentIntegrator.
   SegmentColor integrate(float s_in, float s_out, float length) const;
 
   /// Not from the table: exact, as ClosedForm's. It differs from -log(1 - alpha) by the table's

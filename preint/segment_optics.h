@@ -13,8 +13,8 @@ struct SegmentColor {
   /// Radiance that leaves the segment's front: the integral of color * extinction * exp(-optical
   /// depth so far) over the segment. Linear RGB, premultiplied (by its nature, not by alpha), >= 0.
   float r = 0;
-  float g = 0;
-  float b = 0;
+  float g = 0;  ///< see r
+  float b = 0;  ///< see r
   /// Opacity, 1 - exp(-optical depth), in [0, 1].
   float alpha = 0;
 };

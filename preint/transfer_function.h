@@ -21,11 +21,12 @@ struct Optics {
 /// beyond the first and the last. Two knots at the same scalar make a step; at the step itself the
 /// later one holds.
 struct TransferFunction {
+  /// Optics at a scalar.
   struct Knot {
-    float scalar = 0;
-    Optics optics;
+    float scalar = 0;  ///< in the field's unit
+    Optics optics;     ///< there
   };
-  std::vector<Knot> knots;
+  std::vector<Knot> knots;  ///< ascending; see problem()
 
   /// What is wrong with the knots, in one line that names the knot; nothing where all is well: at
   /// least one knot, scalars finite and in ascending order (not more than two equal), extinction

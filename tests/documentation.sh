@@ -28,6 +28,7 @@ for block in $(ls block* | sort -V); do
   ran=$((ran + 1))
 done
 [ $ran -gt 0 ] || { echo "no commands found in $page" >&2; exit 1; }
+shopt -s nullglob
 for picture in *.png; do
   [ -s "$picture" ] || { echo "$picture is empty" >&2; exit 1; }
 done

@@ -25,16 +25,16 @@ struct ScalarRequest {
 
 /// The part of a ray inside one cell, in front-to-back order along the ray.
 struct Segment {
-  /// Distances along the ray in world units; t_in <= t_out.
-  double t_in, t_out;
-  /// The scalar where the ray comes in and goes out. NaN where a value that takes part is.
-  float s_in, s_out;
+  double t_in;   ///< where the ray comes in: a distance along it, in world units
+  double t_out;  ///< where it goes out, >= t_in
+  float s_in;    ///< the scalar at t_in; NaN where a value that takes part is
+  float s_out;   ///< the scalar at t_out, likewise
   /// Number of the cell in the walkable mesh.
   std::uint32_t cell;
   /// Quadratic: the scalar half way is inner[0]. Cubic: at a third and at two thirds of the way.
   /// Linear: unused.
   ScalarOrder order = ScalarOrder::linear;
-  float inner[2] = {0, 0};
+  float inner[2] = {0, 0};  ///< see order
 };
 
 /// The scalar at a share, 0 to 1, of the way along a segment: its polynomial, by divided
@@ -70,7 +70,7 @@ enum class WalkEnd : std::uint8_t {
 
 /// What became of a ray.
 struct TraceResult {
-  WalkEnd end = WalkEnd::left;
+  WalkEnd end = WalkEnd::left;  ///< how it ended
   /// Times that the ray came in through the boundary.
   std::uint32_t entries = 0;
   /// Cells walked through, each as often as the ray was in it.

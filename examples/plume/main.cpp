@@ -7,12 +7,13 @@
 #include <new>
 
 #include "commands.h"
+#include "plume/lib/version.h"
 #include "plume/mesh/error.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"Ray tracing through unstructured volume meshes"};
   app.name("plume");
-  app.set_version_flag("--version", PLUME_VERSION);
+  app.set_version_flag("--version", plume::version());
   app.require_subcommand(1);
   plume::command::add_render(app);
   plume::command::add_info(app);

@@ -111,7 +111,7 @@ void run(const RenderArguments& args) {
     for (const std::string& line : statistics.plan) console.say(line);
 
   file_options.metadata = {
-      {"Software", "plume " PLUME_VERSION},
+      {"Software", std::string("plume ") + version()},
       {"plume:mesh", std::filesystem::path(args.mesh).filename().string()},
       {"plume:field", field.name},
       {"plume:mode", args.mode},
