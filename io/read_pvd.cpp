@@ -15,6 +15,7 @@
 #include "plume/io/read_file.h"
 #include "plume/io/read_formats.h"
 #include "plume/io/vtk_errors.h"
+#include "plume/io/vtk_xml_range.h"
 #include "plume/mesh/error.h"
 
 namespace plume {
@@ -82,6 +83,21 @@ class PvdReader : public StepReader {
       blocks->SetBlock(next++, opened->read(opened->step_count() - 1, notice));
     }
     return blocks;
+  }
+
+  std::optional<std::array<double, 2>> range(std::size_t step, const std::string& field,
+                                             Association association) const override {
+    std::optional<std::array<double, 2>> all;
+    for (const std::string& name : collection_.at(times()[step])) {
+      const auto part = file_.parent_path() / name;
+      if (lower_extension(part) == ".vtp") continue;
+      check_readable(part);
+      const auto range = vtk_xml_range(part, field, association);
+      if (!range) return std::nullopt;
+      all = all ? std::array{std::min((*all)[0], (*range)[0]), std::max((*all)[1], (*range)[1])}
+                : *range;
+    }
+    return all;
   }
 
  private:

@@ -4,7 +4,10 @@
 #include <vtkSmartPointer.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -30,6 +33,12 @@ class StepReader {
   /// long as somebody holds them. Requires step < step_count(). Throws Error for what is wrong with
   /// the file.
   virtual vtkSmartPointer<vtkDataObject> read(std::size_t step, const Notice& notice) = 0;
+
+  /// What can be known without reading the arrays: see TimeSeries::range(). Throws Error as read().
+  virtual std::optional<std::array<double, 2>> range(std::size_t, const std::string&,
+                                                     Association) const {
+    return std::nullopt;
+  }
 
  private:
   std::vector<double> times_;

@@ -5,12 +5,14 @@
 #include <vtkDataObject.h>
 #include <vtkFieldData.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include "plume/io/find_files.h"
 #include "plume/io/read_formats.h"
 #include "plume/io/vtk_to_mesh.h"
+#include "plume/io/vtk_xml_range.h"
 
 namespace plume {
 namespace {
@@ -67,6 +69,19 @@ std::string TimeSeries::describe(std::size_t step) const {
   if (const auto at = time(step)) words += fmt::format(" (time {:g})", *at);
   if (!body_->opened) words += fmt::format(" ({})", body_->files[step].string());
   return words;
+}
+
+std::optional<std::array<double, 2>> TimeSeries::range(const std::string& field,
+                                                       Association association) const {
+  std::optional<std::array<double, 2>> all;
+  for (std::size_t step = 0; step < size(); ++step) {
+    const auto range = body_->opened ? body_->opened->range(step, field, association)
+                                     : vtk_xml_range(body_->files[step], field, association);
+    if (!range) return std::nullopt;
+    all = all ? std::array{std::min((*all)[0], (*range)[0]), std::max((*all)[1], (*range)[1])}
+              : *range;
+  }
+  return all;
 }
 
 TimeSeries::Step TimeSeries::read(std::size_t step, const Notice& notice) {

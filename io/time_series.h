@@ -1,6 +1,7 @@
 /// A mesh that changes in time: the steps that a file, or several, hold.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <filesystem>
 #include <memory>
@@ -36,6 +37,13 @@ class TimeSeries {
   std::filesystem::path file(std::size_t step) const;
   /// For messages: "step 3 (time 0.25)", and the file where each step has its own.
   std::string describe(std::size_t step) const;
+
+  /// The least and greatest value of a field (of its magnitude, where it has several components)
+  /// over all steps, where the files' headers say it, as those of VTK's XML files do; a hint, not
+  /// to be relied upon. Nothing where it takes more than that. Throws Error for a file that is
+  /// missing.
+  std::optional<std::array<double, 2>> range(const std::string& field,
+                                             Association association) const;
 
   struct Step {
     Mesh mesh;
