@@ -35,9 +35,13 @@ struct SceneOptions {
   /// Compute and keep the field's gradients at the points, 12 bytes each; needed for light and for
   /// the channel "normal". The field must be on points, or averaged to them.
   bool keep_gradients = false;
+  /// Keep what set_field() needs: where the user's points have gone, 4 bytes each, or, where the
+  /// field is constant in cells, where the cells have, 4 bytes each. Of grids, nothing.
+  bool keep_field_order = false;
 };
 
-/// Immutable but for the classification; safe to render from several threads.
+/// Immutable but for the classification and, where the options say so, the field; safe to render
+/// from several threads.
 class Scene {
  public:
   /// Checks the mesh, makes it walkable (in parallel) and chooses a transfer function that shows
@@ -67,6 +71,21 @@ class Scene {
   std::size_t bytes() const;
   /// Whether keep_gradients was set.
   bool has_gradients() const;
+
+  /// Shows another field, or new values of the same: for a solver whose mesh stays. Nothing is
+  /// rebuilt but what depends on the field: the scalars in the walkable mesh, gradients where they
+  /// are kept, findings, default colour map and unit distance. The classification stays, so that
+  /// pictures before and after can be compared; to fit it anew,
+  /// `set_transfer_function(to_transfer_function(default_color_map(), default_unit_distance()))`.
+  /// Then all is bit for bit as in a scene made anew.
+  ///
+  /// `mesh` must be the one that the scene was made of (the same arrays, or copies of them); only
+  /// its fields are read, and its points and cells where values are averaged or gradients kept.
+  /// Not to be called while others render the scene. Throws Error, and leaves the scene as it is,
+  /// where keep_field_order was not set, where the mesh has another number of points or cells,
+  /// where the request is wrong, or where the field is constant in cells and the first was on
+  /// points, or the other way round.
+  void set_field(const Mesh& mesh, const FieldRequest& request = {});
 
   /// The colour map fitted to the field's values: "turbo" from the 1st to the 99th percentile,
   /// the more opaque the rarer a value is.

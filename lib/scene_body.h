@@ -26,13 +26,16 @@ struct Walkable {
 };
 
 struct Scene::Body {
+  SceneOptions options;
+  std::size_t user_points = 0, user_cells = 0;  // of the user's mesh
   std::variant<std::unique_ptr<Walkable<TetWalker>>, std::unique_ptr<Walkable<GridWalker>>,
                std::unique_ptr<Walkable<CellWalker>>, std::unique_ptr<Walkable<RectilinearWalker>>>
       walkable;
   Bounds bounds;
   ScalarField field;
   bool cell_data_averaged = false;
-  std::vector<Finding> findings;
+  std::vector<Finding> findings;      // of the field, then of the mesh
+  std::size_t findings_of_field = 0;  // how many of them
   ColorMap default_map;
   double unit_distance = 1;
   TransferFunction transfer_function;
