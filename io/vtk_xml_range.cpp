@@ -19,8 +19,8 @@ constexpr std::size_t kMostBytes = std::size_t{1} << 20;
 std::optional<std::array<double, 2>> range_in_piece(vtkXMLDataElement& piece,
                                                     const std::string& field,
                                                     Association association) {
-  auto* const arrays = piece.FindNestedElementWithName(
-      association == Association::point ? "PointData" : "CellData");
+  auto* const arrays =
+      piece.FindNestedElementWithName(association == Association::point ? "PointData" : "CellData");
   for (int i = 0; arrays && i < arrays->GetNumberOfNestedElements(); ++i) {
     vtkXMLDataElement* const array = arrays->GetNestedElement(i);
     const char* const name = array->GetAttribute("Name");
