@@ -17,7 +17,7 @@ namespace plume {
 /// of one step.
 ///
 /// A file is opened once, so that what its format keeps once for all steps need not be read again.
-/// To be used by one thread at a time.
+/// To be read by one thread at a time; what else there is to ask may be asked meanwhile.
 class TimeSeries {
  public:
   /// Finds the steps, and reads nothing but what says so. `options` as in read_mesh(), but for
