@@ -54,7 +54,7 @@ std::vector<Vortex> vortices_at(double time, double z) {
       vortex.y = side * (0.4 + (0.5 * row_distance - 0.4) * left);
       const double waviness = 0.02 * vortex.x;
       vortex.x += waviness * wave;
-      vortex.y += 0.5 * waviness * wave;
+      vortex.y += side * 0.5 * waviness * wave;
       vortex.strength = -side * circulation() * left;
       vortex.core2 = square(0.35) + 4 * age / reynolds;
       vortices.push_back(vortex);
@@ -81,7 +81,7 @@ Flow flow_at(double x, double y, const std::vector<Vortex>& vortices) {
     flow.velocity[1] += turning * to_x;
   }
   for (const int side : {-1, 1})
-    flow.vorticity += -side * 4 * std::exp(-square((y - side * 0.52) / shear_layer) - x / 0.7);
+    flow.vorticity += -side * 2.5 * std::exp(-square((y - side * 0.52) / shear_layer) - x / 0.7);
   // The speed vanishes on the cylinder, in a layer as thick as the shear layers.
   const double from_cylinder = std::max(0.0, std::hypot(x, y) - 0.5);
   const double slip = 1 - std::exp(-from_cylinder / shear_layer);

@@ -29,7 +29,7 @@ enum class CellData : std::uint8_t {
 
 struct SceneOptions {
   /// Which field; by default the mesh's active one, else its first.
-  FieldRequest field;
+  FieldRequest field{};
   /// Keep the numbers of the user's cells, 4 bytes each; needed for the channel "cell_id".
   bool keep_cell_numbers = false;
   /// Read where the field is cell-centred.
