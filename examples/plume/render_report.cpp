@@ -56,7 +56,7 @@ nlohmann::json render_record(const FrameOfSeries& frame, const Scene& scene,
           {"values", statistics.values ? nlohmann::json(*statistics.values) : nlohmann::json()},
           {"gray_range",
            statistics.gray_range ? nlohmann::json(*statistics.gray_range) : nlohmann::json()},
-          {"order", static_cast<int>(settings.order)},
+          {"order", static_cast<int>(statistics.order)},
           {"plan", statistics.plan},
           {"findings", to_json(scene.findings())}};
 }
