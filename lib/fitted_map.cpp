@@ -13,7 +13,8 @@ constexpr double kMostOpaque = 0.9;
 
 }  // namespace
 
-ColorMap fitted_color_map(std::span<const float> values) {
+ColorMap fitted_color_map(std::span<const float> values,
+                          const std::optional<std::array<double, 2>>& range) {
   // A sample is enough for percentiles.
   std::vector<float> sample;
   const std::size_t stride = std::max<std::size_t>(1, values.size() / 100000);
@@ -22,7 +23,7 @@ ColorMap fitted_color_map(std::span<const float> values) {
   std::sort(sample.begin(), sample.end());
 
   ColorMap map = *preset("turbo");
-  if (sample.empty() || sample.front() == sample.back()) {
+  if (sample.empty() || (sample.front() == sample.back() && !range)) {
     const double value = sample.empty() ? 0 : sample.front();
     const double margin = std::max(std::abs(value) * 1e-3, 1e-6);
     map = rescaled(std::move(map), value - margin, value + margin);
@@ -33,7 +34,8 @@ ColorMap fitted_color_map(std::span<const float> values) {
     return static_cast<double>(
         sample[static_cast<std::size_t>(share * static_cast<double>(sample.size() - 1))]);
   };
-  double low = percentile(0.01), high = percentile(0.99);
+  double low = range ? (*range)[0] : percentile(0.01);
+  double high = range ? (*range)[1] : percentile(0.99);
   if (!(low < high)) {
     low = sample.front();
     high = sample.back();

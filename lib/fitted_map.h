@@ -1,6 +1,8 @@
 /// A first colour map for values that nobody has looked at yet.
 #pragma once
 
+#include <array>
+#include <optional>
 #include <span>
 
 #include "plume/lib/color_map.h"
@@ -10,6 +12,10 @@ namespace plume {
 /// The colours of "turbo" over the values' 1st to 99th percentile, in which a value is the more
 /// opaque the rarer it is: the free stream stays clear, and what differs from it is seen. Values
 /// that are NaN are passed over; a constant field is shown in one colour, half transparent.
-ColorMap fitted_color_map(std::span<const float> values);
+///
+/// With a `range`, low below high, the colours run over that instead, and what the values do not
+/// reach counts as rare: the first of a series of fields whose range is known beforehand.
+ColorMap fitted_color_map(std::span<const float> values,
+                          const std::optional<std::array<double, 2>>& range = {});
 
 }  // namespace plume

@@ -59,8 +59,8 @@ std::optional<std::size_t> Frame::wanted(const std::string& name) {
   return channel_place(name);
 }
 
-std::optional<std::array<float, 2>> Frame::shade_raw() {
-  if (!raw_) return std::nullopt;
+void Frame::shade_raw(RenderStatistics& statistics) {
+  if (!raw_) return;
   const auto& values = image_.channels[*raw_].values;
   auto for_each_seen = [&](auto&& visit) {
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -71,23 +71,27 @@ std::optional<std::array<float, 2>> Frame::shade_raw() {
     low = std::min(low, value);
     high = std::max(high, value);
   });
-  if (!(low <= high)) return std::nullopt;
-  const std::array<float, 2> range{low, high};
+  if (!(low <= high)) return;
+  statistics.values = {low, high};
   const ShadeBy by = in_words(settings_.mode).shade;
   if (by == ShadeBy::transfer_function) {
     for_each_seen([&](float value, float* rgba) {
       const Optics optics = scene_.transfer_function().at(value);
       std::copy(optics.color.begin(), optics.color.end(), rgba);
     });
-    return range;
+    return;
   }
   if (by == ShadeBy::gray_from_zero) low = std::min(low, 0.0f);
+  if (settings_.gray_range) {
+    low = (*settings_.gray_range)[0];
+    high = (*settings_.gray_range)[1];
+  }
+  if (low < high) statistics.gray_range = {low, high};
   for_each_seen([&](float value, float* rgba) {
-    float shade = high > low ? (value - low) / (high - low) : 1.0f;
+    float shade = high > low ? std::clamp((value - low) / (high - low), 0.0f, 1.0f) : 1.0f;
     if (by == ShadeBy::gray_near_is_white && high > low) shade = 1 - shade;
     std::fill_n(rgba, 3, shade);
   });
-  return range;
 }
 
 }  // namespace plume

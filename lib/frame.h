@@ -84,8 +84,9 @@ class Frame {
     put(raw_, pixel, value);
     rgba(pixel)[3] = seen ? 1.0f : 0.0f;
   }
-  /// Colours the numbers of such a mode, once all pixels have one; says what they run from and to.
-  std::optional<std::array<float, 2>> shade_raw();
+  /// Colours the numbers of such a mode, once all pixels have one; says what they, and the shades
+  /// of gray, run from and to.
+  void shade_raw(RenderStatistics& statistics);
 
   /// Calls visit(PixelPlace) for a tile's pixels along a Z-curve: neighbours in the list, which
   /// share packets, are neighbours in the picture and meet the same cells.

@@ -113,7 +113,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
                      : walked_in_packets(frame)      ? packet_tiles(frame, integrator, pieces)
                                                      : volume_tiles(frame, integrator);
   result.cancelled = make_tiles(frame, *maker, progress, result.statistics);
-  result.statistics.values = frame.shade_raw();
+  frame.shade_raw(result.statistics);
   result.statistics.rays = frame.pixel_count();
   result.image = std::move(frame.image());
   return result;

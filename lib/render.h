@@ -98,6 +98,10 @@ struct RenderSettings {
   /// Walk ray by ray in plain scalar code where packets of rays would do: for comparison. The two
   /// take the same way through the mesh, and their pictures differ by less than 1e-5.
   bool scalar_twin = false;
+  /// Modes in shades of gray: the numbers that run from one end of the shades to the other, low
+  /// below high; numbers beyond are as bright as the nearer end. By default what the mode says, of
+  /// this picture: to fix it is for pictures that are compared, or shown one after the other.
+  std::optional<std::array<float, 2>> gray_range{};
   /// Further channels: "depth", "optical_depth", "cell_id", "cell_count". Optical depth and cell
   /// count need whole rays, so early termination is off where one of them is asked for.
   ///
@@ -124,6 +128,8 @@ struct RenderStatistics {
   /// What a mode's numbers run from and to, in its channel's unit; nothing in the mode volume and
   /// where no ray has one.
   std::optional<std::array<float, 2>> values;
+  /// What the shades of gray run over; nothing in modes without them, or where `values` is nothing.
+  std::optional<std::array<float, 2>> gray_range;
   /// What was chosen for this scene and why, one choice a line.
   std::vector<std::string> plan;
 };

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "plume/lib/render_plan.h"
 #include "plume/mesh/error.h"
@@ -53,6 +54,11 @@ void check_settings(const Scene& scene, const RenderSettings& settings) {
                             settings.early_termination));
   for (const ClipPlane& plane : settings.clip_planes)
     if (const auto problem = problem_of(plane)) throw Error(*problem);
+  if (const auto& gray = settings.gray_range)
+    if (!((*gray)[0] < (*gray)[1]) || !std::isfinite((*gray)[1] - (*gray)[0]))
+      throw Error(
+          fmt::format("shades of gray from {:g} to {:g}: the first must be below the second",
+                      (*gray)[0], (*gray)[1]));
   if (settings.threads < 0)
     throw Error(fmt::format("{} threads: it must be 1 or more, or 0 for all", settings.threads));
   if (settings.integrator.samples < 1)

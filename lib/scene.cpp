@@ -136,7 +136,7 @@ Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_un
   const bool keep_points = on_points && (options.keep_field_order || options.keep_gradients);
   const bool keep_cells = options.keep_cell_numbers || (!on_points && options.keep_field_order);
 
-  body_->default_map = fitted_color_map(field.values);
+  body_->default_map = fitted_color_map(field.values, options.color_range);
   take_words(*body_, read);
   auto take = [&](auto walkable) {
     auto& found = walkable->mesh.findings;
@@ -184,7 +184,7 @@ void Scene::set_field(const Mesh& mesh, const FieldRequest& request) {
         "field '{}' is {} and the scene was made of one that is {}; make a scene anew",
         read.field.name, kind_of(read.field.association), kind_of(body.field.association)));
 
-  body.default_map = fitted_color_map(read.field.values);
+  body.default_map = fitted_color_map(read.field.values, body.options.color_range);
   take_words(body, read);
   std::visit(
       [&](const auto& walkable) {

@@ -1,9 +1,11 @@
 /// What is looked at: a mesh made walkable, one of its fields, and what the values look like.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,7 +30,7 @@ enum class CellData : std::uint8_t {
 /// Which field a scene shows, and what it keeps besides what every picture needs.
 struct SceneOptions {
   /// Which field; by default the mesh's active one, else its first.
-  FieldRequest field;
+  FieldRequest field{};
   /// Keep the numbers of the user's cells, 4 bytes each; needed for the channel "cell_id".
   bool keep_cell_numbers = false;
   /// Read where the field is cell-centred.
@@ -39,6 +41,9 @@ struct SceneOptions {
   /// Keep what set_field() needs: where the user's points have gone, 4 bytes each, or, where the
   /// field is constant in cells, where the cells have, 4 bytes each. Of grids, nothing.
   bool keep_field_order = false;
+  /// What the default colour map runs over, low below high, where the field's own values at this
+  /// time are not all that is going to be shown. By default their 1st to 99th percentile.
+  std::optional<std::array<double, 2>> color_range{};
 };
 
 /// Immutable but for the classification and, where the options say so, the field; safe to render

@@ -18,12 +18,13 @@ struct RenderArguments {
   std::string integrator, order, cell_data = "constant", background = "white", stats;
   std::string interval_form = "exponential";
   std::vector<std::string> channels, isosurfaces, intervals, lights, clip_planes;
-  std::string material, clip_box;
+  std::string material, clip_box, time, gray_range;
   double azimuth = 0, elevation = 0, zoom = 1, opacity_scale = 1, view_angle = 0;
   double unit_distance = 0;
   std::optional<double> early_termination, tolerance;
-  int time_step = -1, samples = 1, threads = 0, bits = 8;
+  int orbit = 0, samples = 1, threads = 0, bits = 8;
   bool no_volume = false, parallel = false, merge_points = false, quiet = false, verbose = false;
+  bool no_read_ahead = false;
 };
 
 /// Names on the command line and what they stand for.
