@@ -209,7 +209,7 @@ class SeriesRenderer {
   std::vector<std::pair<std::string, std::string>> metadata(
       const PlannedFrame& frame, const Camera& camera, const RenderStatistics& statistics) const {
     std::vector<std::pair<std::string, std::string>> lines{
-        {"Software", "plume " PLUME_VERSION},
+        {"Software", std::string("plume ") + version()},
         {"plume:mesh", series_.file(frame.step).filename().string()},
         {"plume:field", scene_.scene().field().name},
         {"plume:mode", args_.mode},
