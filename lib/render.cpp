@@ -64,8 +64,7 @@ void check(const Scene& scene, const RenderSettings& settings) {
     if (const auto problem = problem_of(plane)) throw Error(*problem);
   if (settings.threads < 0)
     throw Error(fmt::format("{} threads: it must be 1 or more, or 0 for all", settings.threads));
-  if (settings.integrator.samples < 1)
-    throw Error(fmt::format("{} samples per segment: at least 1", settings.integrator.samples));
+  if (const auto problem = settings.integrator.problem()) throw Error(*problem);
   if (settings.order < ScalarOrder::linear || settings.order > ScalarOrder::cubic)
     throw Error(fmt::format("order {}: it must be 1 (linear), 2 (quadratic) or 3 (cubic)",
                             static_cast<int>(settings.order)));
@@ -441,7 +440,9 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   // A table is built only where the picture needs what is in it: colours.
   if (settings.mode != Mode::volume || !scene.classification().volume)
     effective.integrator.kind = IntegratorKind::closed_form;
-  const Integrator integrator = make_integrator(scene.transfer_function(), effective.integrator);
+  const auto integrator =
+      scene.body().integrators.get(scene.transfer_function(), effective.integrator);
+  if (auto table = describe_table(*integrator)) result.statistics.plan.push_back(*table);
   const int available = tbb::this_task_arena::max_concurrency();
   tbb::task_arena arena(settings.threads > 0 ? std::min(settings.threads, available) : available);
   auto for_each_tile = [&](const auto& body) {
@@ -471,7 +472,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
         for_each_tile(
             [&](int x, int y) { frame.render_tile(*walkable, chosen, x, y, counts.local()); });
       },
-      scene.body().walkable, integrator);
+      scene.body().walkable, *integrator);
   frame.shade_raw();
 
   for (const Counts& part : counts) {

@@ -42,7 +42,9 @@ const std::vector<std::pair<std::string, Mode>> kModes{{"volume", Mode::volume},
 const std::vector<std::pair<std::string, IntegratorKind>> kIntegrators{
     {"closed-form", IntegratorKind::closed_form},
     {"table", IntegratorKind::table},
-    {"midpoint", IntegratorKind::midpoint}};
+    {"table2", IntegratorKind::second_order_table},
+    {"midpoint", IntegratorKind::midpoint},
+    {"reference", IntegratorKind::reference}};
 const std::vector<std::pair<std::string, CellData>> kCellData{{"constant", CellData::constant},
                                                               {"averaged", CellData::averaged}};
 const std::vector<std::pair<std::string, IntervalForm>> kIntervalForms{
@@ -403,7 +405,10 @@ void add_render(CLI::App& app) {
       ->check(CLI::IsMember(names_of(kIntervalForms)));
   command->add_option("--mode", args->mode, "volume, mip, integral or depth (volume)")
       ->check(CLI::IsMember(names_of(kModes)));
-  command->add_option("--integrator", args->integrator, "closed-form, table or midpoint")
+  command
+      ->add_option("--integrator", args->integrator,
+                   "closed-form, table, table2 (of second order, for --order 2 and 3), midpoint "
+                   "or reference")
       ->check(CLI::IsMember(names_of(kIntegrators)));
   command->add_option("--samples", args->samples, "Samples a segment, for midpoint (1)")
       ->check(CLI::PositiveNumber);
