@@ -3,11 +3,18 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "plume/lib/render_modes.h"
+
 namespace plume {
 
 bool is_classified(const Scene& scene, const RenderSettings& settings) {
   return !scene.classification().is_plain_volume() &&
          (settings.mode == Mode::volume || settings.mode == Mode::depth);
+}
+
+bool is_linear(const Scene& scene, const RenderSettings& settings) {
+  return settings.order == ScalarOrder::linear || scene.field().association == Association::cell ||
+         std::string(scene.form()) == "tetrahedra";
 }
 
 namespace {
@@ -40,32 +47,13 @@ void describe_surfaces(const Scene& scene, const RenderSettings& settings,
     for (const Isosurface& surface : classification.isosurfaces)
       values.push_back(fmt::format("{:g}", surface.value));
     plan.push_back(fmt::format("isosurfaces: {}, {}", fmt::join(values, " "),
-                               settings.order == ScalarOrder::linear ||
-                                       std::string(scene.form()) == "tetrahedra" ||
-                                       scene.field().association == Association::cell
+                               is_linear(scene, settings)
                                    ? "in closed form"
                                    : "by isolated roots of each cell's polynomial"));
   }
 }
 
 }  // namespace
-
-std::optional<std::string> describe_table(const Integrator& integrator) {
-  return std::visit(
-      [](const auto& chosen) -> std::optional<std::string> {
-        if constexpr (requires { chosen.report(); }) {
-          const TableReport& report = chosen.report();
-          if (report.bytes == 0) return "table: none, as there is nothing to tabulate";
-          return fmt::format(
-              "table: {:.1f} MB, built in {:.0f} ms, error {:.1g} at most and {:.1g} RMS of 4096 "
-              "segments spread over it",
-              static_cast<double>(report.bytes) * 1e-6, 1e3 * report.build_seconds,
-              report.largest_error, report.rms_error);
-        }
-        return std::nullopt;
-      },
-      integrator);
-}
 
 std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings& settings) {
   std::vector<std::string> plan;
@@ -85,28 +73,17 @@ std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings&
                                                     : describe_order(settings.order)));
   if (!settings.clip_planes.empty())
     plan.push_back(fmt::format("clip planes: {}, where rays are cut", settings.clip_planes.size()));
-  switch (settings.mode) {
-    case Mode::volume: {
-      constexpr const char* kNames[] = {"midpoint", "table", "closed form", "table of second order",
-                                        "reference"};
-      if (!scene.classification().volume)
-        plan.push_back("volume: none");
-      else
-        plan.push_back(fmt::format("integrator: {} ({} knots)",
-                                   kNames[static_cast<int>(settings.integrator.kind)],
-                                   scene.transfer_function().knots.size()));
-      break;
-    }
-    case Mode::maximum:
-      plan.push_back("maximum of the scalar: no optics");
-      break;
-    case Mode::integral:
-      plan.push_back("integral of the scalar: no optics");
-      break;
-    case Mode::depth:
-      plan.push_back(is_classified(scene, settings) ? "first hit of an isosurface or interval"
-                                                    : "first contribution: optical depth alone");
-      break;
+  if (settings.mode != Mode::volume) {
+    plan.push_back(is_classified(scene, settings) ? "first hit of an isosurface or interval"
+                                                  : in_words(settings.mode).cost);
+  } else if (!scene.classification().volume) {
+    plan.push_back("volume: none");
+  } else {
+    constexpr const char* kNames[] = {"midpoint", "table", "closed form", "table of second order",
+                                      "reference"};
+    plan.push_back(fmt::format("integrator: {} ({} knots)",
+                               kNames[static_cast<int>(settings.integrator.kind)],
+                               scene.transfer_function().knots.size()));
   }
   if (is_classified(scene, settings)) describe_surfaces(scene, settings, plan);
   if (settings.lighting)
