@@ -80,7 +80,11 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   Frame frame(scene, camera, effective);
   RenderResult result;
   std::vector<std::string>& plan = result.statistics.plan;
-  plan = describe_plan(scene, settings);
+  // Where segments are linear, or cut into linear parts, the closed form is all there is to it.
+  const bool unbent = is_linear(scene, settings) || is_classified(scene, settings);
+  if (unbent && settings.integrator.kind == IntegratorKind::second_order_table)
+    effective.integrator.kind = IntegratorKind::closed_form;
+  plan = describe_plan(scene, effective);
   if (has_packets(scene))
     plan.push_back(walked_in_packets(frame)
                        ? fmt::format("rays: in packets, {}", packet_instruction_set())

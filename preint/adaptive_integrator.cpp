@@ -88,22 +88,24 @@ class Turn {
 
 PreciseColor integrate_curved(std::span<const CurvedPiece> pieces, double length, double tolerance,
                               double largest_color) {
-  const double visible_depth = -std::log(tolerance) + 1;
+  double visible_depth = -std::log(tolerance) + 1;  // from the piece's front on
   PreciseColor color;
   for (const CurvedPiece& piece : pieces) {
     const double piece_length = piece.share * length;
-    const double alpha = -std::expm1(-std::max(0.0, piece_length * piece.depth(1)));
-    if (alpha == 0) continue;
+    const double depth = std::max(0.0, piece_length * piece.depth(1));
+    if (depth == 0) continue;
+    const double alpha = -std::expm1(-depth);
     PreciseColor part{{}, alpha};
     const auto& slope = piece.slope.color;
     const double steepest = std::max({std::abs(slope[0]), std::abs(slope[1]), std::abs(slope[2])});
     double turn = 0;
-    if (steepest > 0)
+    if (steepest > 0 && visible_depth > 0)
       turn =
           Turn(piece, piece_length, steepest / largest_color, tolerance, visible_depth).integral();
     for (std::size_t channel = 0; channel < 3; ++channel)
       part.rgb[channel] = std::max(0.0, piece.base.color[channel] * alpha + slope[channel] * turn);
     color.add_behind(part);
+    visible_depth -= depth;
     if (color.alpha >= 1) break;
   }
   return color;

@@ -6,6 +6,8 @@ namespace plume {
 
 std::shared_ptr<const Integrator> IntegratorCache::get(const TransferFunction& transfer_function,
                                                        const IntegratorSettings& settings) {
+  if (settings.kind != IntegratorKind::table && settings.kind != IntegratorKind::second_order_table)
+    return std::make_shared<const Integrator>(make_integrator(transfer_function, settings));
   const std::lock_guard lock(guard_);
   if (!last_ || transfer_function != transfer_function_ || settings != settings_) {
     last_.reset();  // a table of the old one need not be kept beside the new one

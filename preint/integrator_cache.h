@@ -8,8 +8,9 @@
 
 namespace plume {
 
-/// Tables take longer to build than many a frame to render. Keeps one integrator, and builds anew
-/// where the transfer function or the settings are others than the last time.
+/// Tables take longer to build than many a frame to render. Keeps the last one, and builds anew
+/// where the transfer function or the settings are others than for that. Integrators without a
+/// table are made when they are asked for, and leave it where it is.
 ///
 /// Safe to call from many threads: one builds, the others wait for it. What was given out stays
 /// alive for who holds it.

@@ -15,6 +15,7 @@ constexpr const char* kHelp =
   --segments=N   segments for each transfer function (2800)
   --rounds=N     how often each is timed, in turns (15); medians are reported
   --seed=N       of the segments (1)
+  --quick        without the larger tables
   -o FILE        writes the tables as markdown there as well
 )";
 
@@ -31,7 +32,9 @@ int main(int argc, char** argv) {
   };
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
-    if (argument == "-o" && i + 1 < argc) {
+    if (argument == "--quick") {
+      options.quick = true;
+    } else if (argument == "-o" && i + 1 < argc) {
       output = argv[++i];
     } else if (!number(argument, "--segments=", options.segments) &&
                !number(argument, "--rounds=", options.rounds) &&

@@ -64,8 +64,8 @@ void sum_up(const Integrator& integrator, const LaneSegments& segments) {
   (void)kept;
 }
 
-std::string new_transfer_function(int rounds) {
-  const Mesh mesh = generate("box-tetrahedra", {32, 0.2, 1});
+std::string new_transfer_function(int rounds, bool quick) {
+  const Mesh mesh = generate("box-tetrahedra", {quick ? 8 : 32, 0.2, 1});
   Scene scene(mesh);
   const Camera camera = named_view("iso", scene.bounds());
   RenderSettings settings;
@@ -129,7 +129,7 @@ std::string integrator_costs(const IntegratorBenchOptions& options) {
     }
   }
   return "### Cost for 8 knots\n\n" + markdown_table(rows) + '\n' +
-         new_transfer_function(options.rounds);
+         new_transfer_function(options.rounds, options.quick);
 }
 
 }  // namespace plume::bench

@@ -10,6 +10,7 @@ struct IntegratorBenchOptions {
   int segments = 2800;  ///< for each transfer function, spread over seven decades of length
   int rounds = 15;      ///< of timing, in turns; medians are reported
   std::uint64_t seed = 1;
+  bool quick = false;  ///< without the larger tables, which take long to build
 };
 
 /// Markdown: the largest and the RMS error of each integrator on six transfer functions, the closed

@@ -159,15 +159,16 @@ using Rows = std::vector<std::vector<std::string>>;
 template <class Field>
 void by_step(const Field& field, const std::vector<FieldRay>& list,
              const std::vector<std::array<double, 4>>& right, const TransferFunction& function,
-             Rows& rows) {
+             bool quick, Rows& rows) {
   double last_second = 0;
   std::size_t row = 0;
   for (const int samples : {8, 16, 32, 64, 128}) {
+    if (quick && samples > 32) break;
     const double step = kRayLength / samples;
     const PreintegratedTable first(function,
                                    {256, 2, std::array{0.0f, 1.0f}, {}, static_cast<float>(step)});
     const SecondOrderTable second(
-        function, {96, 2, std::array{0.0f, 1.0f}, {}, static_cast<float>(2 * step)});
+        function, {quick ? 32 : 96, 2, std::array{0.0f, 1.0f}, {}, static_cast<float>(2 * step)});
     Error of_first, of_second;
     for (std::size_t r = 0; r < list.size(); ++r) {
       const auto at = [&](int i) { return static_cast<float>(field(list[r].at(i * step))); };
@@ -191,10 +192,11 @@ void by_step(const Field& field, const std::vector<FieldRay>& list,
 // Samples at the voxels' borders and between, as walkers give them.
 std::string by_voxel(const TrilinearField& field, const std::vector<FieldRay>& list,
                      const std::vector<std::array<double, 4>>& right,
-                     const TransferFunction& function) {
+                     const TransferFunction& function, bool quick) {
   const ClosedForm closed_form(function);
   const AdaptiveIntegrator adaptive(function);
-  const SecondOrderTable table(function, {40, 24, std::array{0.0f, 1.0f}, std::array{1e-3f, 2.0f}});
+  const SecondOrderTable table(
+      function, {quick ? 16 : 40, 24, std::array{0.0f, 1.0f}, std::array{1e-3f, 2.0f}});
   Rows rows{{"in each voxel", "samples a voxel", "RMS", "largest"}};
   const auto add_row = [&](const std::string& name, int samples, const auto& add) {
     Error error;
@@ -223,7 +225,7 @@ std::string by_voxel(const TrilinearField& field, const std::vector<FieldRay>& l
   const auto quadratic = [](const auto& at) {
     return ScalarPolynomial::quadratic(at(0), at(0.5), at(1));
   };
-  add_row("table of second order, 40^3 x 24", 2,
+  add_row(fmt::format("table of second order, {}^3 x 24", quick ? 16 : 40), 2,
           [&](Compositor& sum, const auto& at, float length) {
             sum.add(table.integrate(quadratic(at), length));
           });
@@ -244,11 +246,11 @@ std::string along_rays(const TransferFunction& function, const IntegratorBenchOp
   }
   Rows rows{{"step, voxels", "smooth: first order", "second", "second at twice the step : first",
              "trilinear: first order", "second", "second at twice the step : first"}};
-  by_step(smooth_field, list, of_smooth, function, rows);
-  by_step(trilinear, list, of_trilinear, function, rows);
+  by_step(smooth_field, list, of_smooth, function, options.quick, rows);
+  by_step(trilinear, list, of_trilinear, function, options.quick, rows);
   return "### Second order against first, by step: RMS error of a ray\n\n" + markdown_table(rows) +
          "\n### Second order against first, voxel by voxel: error of a ray\n\n" +
-         by_voxel(trilinear, list, of_trilinear, function);
+         by_voxel(trilinear, list, of_trilinear, function, options.quick);
 }
 
 // Quadratic segments, half of them with a middle up to 0.1 off the line between the ends.
@@ -312,10 +314,13 @@ std::string single_segments(const TransferFunction& function,
       return sum;
     };
   };
+  // Not moved once somebody refers to them.
   std::vector<SecondOrderTable> tables;
-  for (const auto& [scalars, lengths] : {std::pair{16, 12}, {24, 16}, {40, 24}, {64, 32}})
+  for (const auto& [scalars, lengths] : {std::pair{16, 12}, {24, 16}, {40, 24}, {64, 32}}) {
+    if (options.quick && scalars > 24) break;
     tables.emplace_back(function, SecondOrderTableSettings{scalars, lengths, std::array{0.0f, 1.0f},
                                                            std::array{1e-3f, 10.0f}});
+  }
   const std::array<const char*, 4> names{"16^3 x 12", "24^3 x 16", "40^3 x 24", "64^3 x 32"};
   for (std::size_t i = 0; i < tables.size(); ++i)
     add_row(fmt::format("table of second order, {}", names[i]), whole(tables[i]),

@@ -34,6 +34,9 @@ TEST(IntegratorCache, builds_anew_only_where_something_changed) {
   larger.table.scalar_count = 17;
   const auto third = cache.get(other, larger);
   EXPECT_NE(third, second);
+  // What has no table does not drive it out.
+  EXPECT_TRUE(std::holds_alternative<ClosedForm>(*cache.get(function, {})));
+  EXPECT_EQ(cache.get(other, larger), third);
   // What was given out is alive.
   EXPECT_EQ(std::get<PreintegratedTable>(*first).bytes(), 16u * 16 * 8 * 16);
   EXPECT_EQ(std::get<PreintegratedTable>(*third).bytes(), 17u * 17 * 8 * 16);
