@@ -9,6 +9,7 @@
 #include "plume/preint/compositing.h"
 #include "plume/preint/optical_depth.h"
 #include "plume/preint/scalar_polynomial.h"
+#include "plume/preint/segment_optics.h"
 #include "plume/traverse/segment.h"
 
 namespace plume {
@@ -44,19 +45,43 @@ bool for_each_linear_part(const Segment& segment, double tolerance, Visit&& visi
       });
 }
 
+/// Cuts a segment into parts that the integrator takes (see CurvedSegmentIntegrator), and calls
+///     visit(length, scalar...)
+/// where `scalar` is a ScalarPolynomial or the two ends of a linear part, until it returns false;
+/// returns whether all were visited. Of the scalar, parts are right within `tolerance`.
+template <class Integrator, class Visit>
+bool for_each_part(const Segment& segment, const Integrator&, double tolerance, Visit&& visit) {
+  if constexpr (CurvedSegmentIntegrator<Integrator>) {
+    if (segment.order != ScalarOrder::linear) {
+      const ScalarPolynomial scalar = polynomial_of(segment);
+      const float length = segment_length(segment);
+      if (scalar.degree() <= Integrator::highest_degree) return visit(length, scalar);
+      static_assert(Integrator::highest_degree >= 2);
+      return scalar.for_each_quadratic_piece(
+          tolerance, [&](const ScalarPolynomial& piece, double share) {
+            return visit(static_cast<float>(share) * length, piece);
+          });
+    }
+  }
+  return for_each_linear_part(segment, tolerance, [&](const Segment& part) {
+    return visit(segment_length(part), part.s_in, part.s_out);
+  });
+}
+
 /// Emission and absorption.
 template <class Integrator>
 struct VolumePixel {
   const Integrator& integrator;
   float early_termination;
-  double tolerance;  ///< of the linear parts of segments
+  double tolerance;  ///< of the parts of segments
   Compositor compositor{};
 
   bool operator()(const Segment& segment) {
-    return for_each_linear_part(segment, tolerance, [this](const Segment& part) {
-      compositor.add(integrator.integrate(part.s_in, part.s_out, segment_length(part)));
-      return !compositor.opaque(early_termination);
-    });
+    return for_each_part(segment, integrator, tolerance,
+                         [this](float length, const auto&... scalar) {
+                           compositor.add(integrator.integrate(scalar..., length));
+                           return !compositor.opaque(early_termination);
+                         });
   }
 };
 

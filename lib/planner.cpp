@@ -95,6 +95,7 @@ RenderSettings reference_settings(RenderSettings settings, double max_error) {
   settings.order = ScalarOrder::adaptive;
   settings.scalar_tolerance = std::clamp(1e-3 * max_error, 1e-6, 1e-5);
   settings.integrator = {};
+  if (max_error == 0) settings.integrator.kind = IntegratorKind::reference;
   settings.early_termination = 0;
   settings.scalar_twin = true;
   return settings;

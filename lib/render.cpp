@@ -87,6 +87,10 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   result.statistics.order = effective.order;
   Frame frame(scene, camera, effective);
   std::vector<std::string>& plan = result.statistics.plan;
+  // Where segments are linear, or cut into linear parts, the closed form is all there is to it.
+  const bool unbent = is_linear(scene, effective) || is_classified(scene, effective);
+  if (unbent && effective.integrator.kind == IntegratorKind::second_order_table)
+    effective.integrator.kind = IntegratorKind::closed_form;
   plan = describe_plan(scene, effective);
   plan.insert(plan.begin(), reasons.begin(), reasons.end());
   if (has_packets(scene))
@@ -106,7 +110,9 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   // A table is built only where the picture needs what is in it: colours.
   if (settings.mode != Mode::volume || !scene.classification().volume)
     effective.integrator.kind = IntegratorKind::closed_form;
-  const Integrator integrator = make_integrator(scene.transfer_function(), effective.integrator);
+  const auto kept = scene.body().integrators.get(scene.transfer_function(), effective.integrator);
+  const Integrator& integrator = *kept;
+  if (const auto table = describe_table(integrator)) plan.push_back(*table);
   const PieceTable pieces(scene.transfer_function());
   const auto maker = is_classified(scene, settings)  ? classified_tiles(frame, integrator)
                      : settings.mode != Mode::volume ? mode_tiles(frame)

@@ -61,8 +61,7 @@ void check_settings(const Scene& scene, const RenderSettings& settings) {
                       (*gray)[0], (*gray)[1]));
   if (settings.threads < 0)
     throw Error(fmt::format("{} threads: it must be 1 or more, or 0 for all", settings.threads));
-  if (settings.integrator.samples < 1)
-    throw Error(fmt::format("{} samples per segment: at least 1", settings.integrator.samples));
+  if (const auto problem = settings.integrator.problem()) throw Error(*problem);
   if (settings.order < ScalarOrder::linear || settings.order > ScalarOrder::adaptive)
     throw Error(
         fmt::format("order {}: it must be 1 (linear), 2 (quadratic), 3 (cubic) or 4 (adaptive)",

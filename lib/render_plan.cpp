@@ -61,6 +61,23 @@ void describe_surfaces(const Scene& scene, const RenderSettings& settings,
 
 }  // namespace
 
+std::optional<std::string> describe_table(const Integrator& integrator) {
+  return std::visit(
+      [](const auto& chosen) -> std::optional<std::string> {
+        if constexpr (requires { chosen.report(); }) {
+          const TableReport& report = chosen.report();
+          if (report.bytes == 0) return "table: none, as there is nothing to tabulate";
+          return fmt::format(
+              "table: {:.1f} MB, built in {:.0f} ms, error {:.1g} at most and {:.1g} RMS of 4096 "
+              "segments spread over it",
+              static_cast<double>(report.bytes) * 1e-6, 1e3 * report.build_seconds,
+              report.largest_error, report.rms_error);
+        }
+        return std::nullopt;
+      },
+      integrator);
+}
+
 std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings& settings) {
   std::vector<std::string> plan;
   const std::string form = scene.form();
@@ -85,7 +102,8 @@ std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings&
   } else if (!scene.classification().volume) {
     plan.push_back("volume: none");
   } else {
-    constexpr const char* kNames[] = {"midpoint", "table", "closed form"};
+    constexpr const char* kNames[] = {"midpoint", "table", "closed form", "table of second order",
+                                      "reference"};
     plan.push_back(fmt::format("integrator: {} ({} knots)",
                                kNames[static_cast<int>(settings.integrator.kind)],
                                scene.transfer_function().knots.size()));

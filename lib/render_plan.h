@@ -1,10 +1,12 @@
 /// What a picture takes, in words: for render().
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "plume/lib/render.h"
+#include "plume/preint/integrator.h"
 
 namespace plume {
 
@@ -19,5 +21,8 @@ bool is_linear(const Scene& scene, const RenderSettings& settings);
 
 /// What follows from the scene and the settings alone, one choice a line.
 std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings& settings);
+
+/// What a table costs and how far off it is; nothing where the integrator has none.
+std::optional<std::string> describe_table(const Integrator& integrator);
 
 }  // namespace plume

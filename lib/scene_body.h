@@ -7,6 +7,7 @@
 
 #include "plume/lib/gradient_field.h"
 #include "plume/lib/scene.h"
+#include "plume/preint/integrator_cache.h"
 #include "plume/traverse/trace.h"
 #include "plume/traverse/trace_rectilinear.h"
 
@@ -41,6 +42,7 @@ struct Scene::Body {
   TransferFunction transfer_function;
   Classification classification;
   std::optional<GradientField> gradients;
+  mutable IntegratorCache integrators;  // a frame without a new transfer function builds no table
 };
 
 }  // namespace plume

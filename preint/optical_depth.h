@@ -26,7 +26,7 @@ class OpticalDepth {
 
   /// Mean extinction per unit of length on a segment between two scalars; the same in both
   /// directions. Where they are equal, the extinction there. Requires finite scalars.
-  double mean_extinction(float s_in, float s_out) const;
+  double mean_extinction(double s_in, double s_out) const;
 
   /// Optical depth of a segment; 0 where it is empty (see SegmentIntegrator).
   float operator()(float s_in, float s_out, float length) const;

@@ -43,6 +43,9 @@ class Pieces {
   /// Optics at a scalar inside a piece or at its ends.
   PreciseOptics at(std::size_t piece, double scalar) const;
 
+  /// What the optics of a piece change by per unit of the scalar; 0 inside a step.
+  PreciseOptics slope(std::size_t piece) const;
+
   /// Optics at a finite scalar.
   PreciseOptics at(double scalar) const { return at(piece_above(scalar), scalar); }
 

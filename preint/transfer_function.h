@@ -15,6 +15,8 @@ struct Optics {
   /// Linear RGB (Rec. 709 primaries), >= 0. What an opaque slab of this value would show: the
   /// source term of the volume rendering integral is color * extinction.
   std::array<float, 3> color{0, 0, 0};
+
+  bool operator==(const Optics&) const = default;
 };
 
 /// Extinction and colour over the scalar axis, both piecewise linear between knots and constant
@@ -23,10 +25,14 @@ struct Optics {
 struct TransferFunction {
   /// Optics at a scalar.
   struct Knot {
-    float scalar = 0;  ///< in the field's unit
-    Optics optics;     ///< there
+    float scalar = 0;
+    Optics optics;
+
+    bool operator==(const Knot&) const = default;
   };
   std::vector<Knot> knots;  ///< ascending; see problem()
+
+  bool operator==(const TransferFunction&) const = default;
 
   /// What is wrong with the knots, in one line that names the knot; nothing where all is well: at
   /// least one knot, scalars finite and in ascending order (not more than two equal), extinction

@@ -109,7 +109,10 @@ void add_render_options(CLI::App& command, RenderArguments& args) {
       "--gray-range", args.gray_range,
       "Modes integral, optical-depth, depth and cells: what shades of gray run over, "
       "LOW,HIGH (what the first picture holds)");
-  command.add_option("--integrator", args.integrator, "closed-form, table or midpoint")
+  command
+      .add_option("--integrator", args.integrator,
+                  "closed-form, table, table2 (of second order, for --order 2 and 3), midpoint or "
+                  "reference (closed-form)")
       ->check(CLI::IsMember(names_of(kIntegrators)));
   command.add_option("--samples", args.samples, "Samples a segment, for midpoint (1)")
       ->check(CLI::PositiveNumber);

@@ -31,7 +31,9 @@ struct RenderArguments {
 inline const std::vector<std::pair<std::string, IntegratorKind>> kIntegrators{
     {"closed-form", IntegratorKind::closed_form},
     {"table", IntegratorKind::table},
-    {"midpoint", IntegratorKind::midpoint}};
+    {"table2", IntegratorKind::second_order_table},
+    {"midpoint", IntegratorKind::midpoint},
+    {"reference", IntegratorKind::reference}};
 inline const std::vector<std::pair<std::string, CellData>> kCellData{
     {"constant", CellData::constant}, {"averaged", CellData::averaged}};
 inline const std::vector<std::pair<std::string, IntervalForm>> kIntervalForms{
