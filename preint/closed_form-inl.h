@@ -142,6 +142,10 @@ HWY_INLINE void Composite(const Table& pieces, MF active, VF s_in, VF s_out, VF 
   const VU one_piece = hn::Set(du, 1);
   active = hn::And(active, hn::And(hn::Eq(s_in, s_in), hn::Eq(s_out, s_out)));
   active = hn::And(active, hn::Gt(length, zero));
+  // Zero times what is not a number is none: nothing of such lanes may get into a sum.
+  s_in = hn::IfThenElseZero(active, s_in);
+  s_out = hn::IfThenElseZero(active, s_out);
+  length = hn::IfThenElseZero(active, length);
   const MF rising = hn::Ge(s_out, s_in);
 
   // The piece that the segment begins in: mostly where the last one ended.

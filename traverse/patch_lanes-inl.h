@@ -119,8 +119,11 @@ class GrazeTest {
     const VF sizes = hn::MulAdd(four, hn::Add(hn::Abs(v0), hn::Abs(v2)),
                                 hn::MulAdd(hn::Set(d, 2), hn::Abs(v1), error_));
     const VF discriminant = hn::NegMulAdd(four, outer, hn::MulAdd(v1, v1, room(sizes)));
-    const VF ends = hn::Or(hn::Add(outer, tiny), hn::MulAdd(u0, u2, tiny));
-    const VF middles = hn::Or(hn::NegMulAdd(v0, v1, room(v0)), hn::NegMulAdd(u0, u1, room(u0)));
+    // An edge's bit may have another sign than its product.
+    auto both = [&](VF p, VF q) { return room(hn::Add(hn::Abs(p), hn::Abs(q))); };
+    const VF ends = hn::Or(hn::Add(outer, both(v0, v2)), hn::MulAdd(u0, u2, both(u0, u2)));
+    const VF middles =
+        hn::Or(hn::NegMulAdd(v0, v1, both(v0, v1)), hn::NegMulAdd(u0, u1, both(u0, u1)));
     return hn::Or(hn::Or(ends, discriminant), middles);
   }
 

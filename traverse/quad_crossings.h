@@ -49,6 +49,18 @@ inline double edge_product(const ShearedPoint& p, const ShearedPoint& q) {
          static_cast<double>(q.x) * static_cast<double>(p.y);
 }
 
+/// On which side of an edge's line the ray passes: 1 where that product is positive, else -1.
+///
+/// The windings must not be contradicted: of an edge that crosses y = 0, its one bit says it
+/// (right_of_ray()), though rounding may have had a hand in it. Of others the product does; where
+/// that is zero, the ray is taken as moved a little, in +x and less in -y, as the bits have it.
+inline int edge_side(const ShearedPoint& p, const ShearedPoint& q) {
+  if (p.up() != q.up()) return (q.up() ? right_of_ray(p, q) : 1 - right_of_ray(q, p)) * 2 - 1;
+  const double product = edge_product(p, q);
+  if (product != 0) return product > 0 ? 1 : -1;
+  return p.y > q.y || (p.y == q.y && p.x > q.x) ? 1 : -1;
+}
+
 /// Whether the ray crosses the bilinear patch of a loop of winding 0 twice, once in each direction.
 ///
 /// The lines of constant v across the patch, and those of constant u, pass through the ray where a
@@ -61,13 +73,14 @@ inline double edge_product(const ShearedPoint& p, const ShearedPoint& q) {
 /// touches the ray the answer hangs on rounding, of the vertices above all; but it is the same from
 /// both sides.
 inline bool is_grazed(const Quad& q) {
-  const double v0 = edge_product(q.a, q.b), v2 = edge_product(q.d, q.c);
-  if (!(v0 * v2 > 0)) return false;
-  const double u0 = edge_product(q.a, q.d), u2 = edge_product(q.b, q.c);
-  if (!(u0 * u2 > 0)) return false;
+  const int v0 = edge_side(q.a, q.b);
+  if (v0 != edge_side(q.d, q.c)) return false;
+  const int u0 = edge_side(q.a, q.d);
+  if (u0 != edge_side(q.b, q.c)) return false;
   const double ac = edge_product(q.a, q.c), bd = edge_product(q.b, q.d);
   const double v1 = ac - bd, u1 = ac + bd;
-  return v0 * v1 < 0 && u0 * u1 < 0 && v1 * v1 > 4 * (v0 * v2);
+  return v0 * v1 < 0 && u0 * u1 < 0 &&
+         v1 * v1 > 4 * (edge_product(q.a, q.b) * edge_product(q.d, q.c));
 }
 
 /// The bilinear patch through the corners of a loop of this winding. Inside of it there is at most

@@ -8,7 +8,7 @@
 /// zero, whatever the rounding, and a ray that comes in goes out.
 ///
 /// The bits also have a meaning in exact arithmetic: they are those of a ray moved by an
-/// infinitesimal amount in -y and a smaller one in +x, which meets no vertex and no edge.
+/// infinitesimal amount in +x and a smaller one in -y, which meets no vertex and no edge.
 #pragma once
 
 #include <array>

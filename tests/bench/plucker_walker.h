@@ -68,6 +68,7 @@ struct PluckerRay {
 
 /// What is timed: no audit.
 struct NoAudit {
+  void come_to(std::uint32_t) {}
   void count_tests(std::uint64_t) {}
   bool contradicted(float, float, float) { return false; }
 };
@@ -76,6 +77,7 @@ struct NoAudit {
 /// passes its edges on different sides, so it was sent through a face that it does not cross.
 struct CountingAudit {
   std::uint64_t tests = 0;
+  void come_to(std::uint32_t) {}
   void count_tests(std::uint64_t count) { tests += count; }
   bool contradicted(float w01, float w12, float w20) { return w01 < 0 || w12 < 0 || w20 < 0; }
 };
@@ -167,6 +169,7 @@ PluckerWalk walk_plucker(const PluckerMesh& mesh, const PluckerRay& ray,
   std::uint32_t apex = entry.apex;
   for (;;) {
     ++walk.cells;
+    audit.come_to(cell);
     const Vertex v3 = vertex(apex);
     const float w03 = product(v0, v3), w13 = product(v1, v3);
     // The new vertex takes the place of the one that is left behind: then each of the three ways

@@ -44,9 +44,13 @@ double worst_difference(const Scene& scene, const Camera& camera, double early_t
     EXPECT_EQ(packets.statistics.cells_visited, twin.statistics.cells_visited);
   }
   double worst = 0;
-  for (std::size_t i = 0; i < twin.image.rgba.size(); ++i)
-    worst =
-        std::max(worst, std::abs(static_cast<double>(packets.image.rgba[i]) - twin.image.rgba[i]));
+  for (std::size_t i = 0; i < twin.image.rgba.size(); ++i) {
+    const double difference =
+        std::abs(static_cast<double>(packets.image.rgba[i]) - twin.image.rgba[i]);
+    // The greater of a number and none is the number: that would hide it.
+    if (std::isnan(difference)) return std::numeric_limits<double>::infinity();
+    worst = std::max(worst, difference);
+  }
   return worst;
 }
 

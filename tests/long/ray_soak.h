@@ -2,26 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 
-#include "plume/mesh/local_frame.h"
 #include "plume/mesh/mesh.h"
-#include "plume/mesh/walkable_tets.h"
-#include "plume/traverse/boundary.h"
 
 namespace plume::test {
-
-/// A mesh made ready for it. Immutable; may be read by several threads.
-struct SoakMesh {
-  std::string name;
-  bool fills_bounds;
-  Mesh mesh;
-  Bounds bounds;
-  WalkableTets tets;
-  BoundaryIndex<TetWalker> boundary;
-
-  SoakMesh(std::string mesh_name, Mesh source, bool fills);
-};
 
 /// Single precision resolves 6e-8 of a mesh whose diagonal is up to 3.5 in the local frame;
 /// shearing a point takes three operations, at either end of the chord.
@@ -63,8 +49,19 @@ struct SoakTally {
   void add(const SoakTally& other);
 };
 
-/// Walks `rays` rays of a batch, which is known by `seed` and `batch`: the same ones wherever and
-/// in whatever order batches run.
-SoakTally soak(const SoakMesh& mesh, std::uint64_t seed, std::uint64_t batch, std::uint64_t rays);
+/// A mesh made ready for it. May be read by several threads.
+class SoakMesh {
+ public:
+  virtual ~SoakMesh() = default;
+  /// Walks `rays` rays of a batch, which is known by `seed` and `batch`: the same ones wherever and
+  /// in whatever order batches run.
+  virtual SoakTally soak(std::uint64_t seed, std::uint64_t batch, std::uint64_t rays) const = 0;
+};
+
+/// By the walker of such a mesh: tetrahedra, a curvilinear grid, other cells, a rectilinear grid.
+/// `fills`: the mesh fills its bounds.
+std::unique_ptr<SoakMesh> make_soak_mesh(const std::string& name, Mesh mesh, bool fills);
+/// Of a rectilinear grid, whose walker has a trace of its own.
+std::unique_ptr<SoakMesh> make_rectilinear_soak_mesh(const std::string& name, Mesh mesh);
 
 }  // namespace plume::test

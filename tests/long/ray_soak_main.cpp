@@ -22,7 +22,7 @@ namespace {
 using plume::test::SoakTally;
 
 constexpr const char* kHelp =
-    R"(plume_ray_soak: rays by the million through bad meshes of tetrahedra
+    R"(plume_ray_soak: rays by the million through bad meshes
 
   --rays=N      rays over all meshes (1,000,000); half of them aimed at vertices, along edges and
                 in the planes of faces
@@ -31,7 +31,9 @@ constexpr const char* kHelp =
 
 Checks that no ray is lost, that packets of rays meet the cells of their scalar twin in its order,
 with every instruction set at hand, that rays turned around go back the way they came, and that
-lengths sum up to the chord. Ends with 1 where any of that fails. The blunt fin is read from the
+lengths sum up to the chord. Meshes are of tetrahedra, of hexahedra in curvilinear grids, of mixed
+cells and of rectilinear grids; `--form=NAME` takes those of one form: tetrahedra, grid, cells or
+rectilinear. Ends with 1 where any of that fails. The blunt fin is read from the
 directory PLUME_DATASETS, by default ../shared/datasets.
 )";
 
@@ -39,6 +41,7 @@ constexpr std::uint64_t kBatch = 4096;
 
 struct Options {
   std::uint64_t rays = 1000000, seed = 1, threads = 1;
+  std::string form;
 };
 
 // One instruction set of each name: those that were not compiled fall back on others.
@@ -69,7 +72,7 @@ SoakTally soak_mesh(const plume::test::SoakMesh& mesh, const Options& options, s
       workers.emplace_back([&] {
         for (std::uint64_t b = next.fetch_add(sets.size()); b < batches;
              b = next.fetch_add(sets.size()))
-          tally.add(soak(mesh, options.seed, b, std::min(kBatch, rays - b * kBatch)));
+          tally.add(mesh.soak(options.seed, b, std::min(kBatch, rays - b * kBatch)));
       });
     for (std::thread& worker : workers) worker.join();
     for (const SoakTally& tally : tallies) total.add(tally);
@@ -78,7 +81,7 @@ SoakTally soak_mesh(const plume::test::SoakMesh& mesh, const Options& options, s
 }
 
 void print(const std::string& name, const SoakTally& t, bool chord, double seconds) {
-  fmt::print("{:<17}{:>11}{:>9}{:>12}{:>14}{:>6}{:>8}{:>7}{:>8}{:>7}{:>9}{:>9}{:>8.0f}\n", name,
+  fmt::print("{:<23}{:>11}{:>9}{:>12}{:>14}{:>6}{:>8}{:>7}{:>8}{:>7}{:>9}{:>9}{:>8.0f}\n", name,
              t.rays, t.aimless, t.passages, t.cells, t.lost, t.contradictions, t.different,
              t.one_way, t.off_length, chord ? fmt::format("{:.1e}", t.worst_twin) : "-",
              chord ? fmt::format("{:.1e}", t.worst_packets) : "-", seconds);
@@ -88,8 +91,10 @@ void print(const std::string& name, const SoakTally& t, bool chord, double secon
 int run(const Options& options) {
   using Clock = std::chrono::steady_clock;
   const auto sets = instruction_sets();
-  const auto& sources = plume::test::soak_sources();
-  fmt::print("{:<17}{:>11}{:>9}{:>12}{:>14}{:>6}{:>8}{:>7}{:>8}{:>7}{:>9}{:>9}{:>8}\n", "mesh",
+  std::vector<plume::test::SoakSource> sources;
+  for (const auto& source : plume::test::soak_sources())
+    if (options.form.empty() || options.form == source.form) sources.push_back(source);
+  fmt::print("{:<23}{:>11}{:>9}{:>12}{:>14}{:>6}{:>8}{:>7}{:>8}{:>7}{:>9}{:>9}{:>8}\n", "mesh",
              "rays", "aimless", "passages", "cells", "lost", "contra", "packet", "turned", "length",
              "worst", "packets'", "seconds");
   SoakTally total;
@@ -101,12 +106,13 @@ int run(const Options& options) {
     const auto begin = Clock::now();
     std::optional<plume::Mesh> mesh = sources[s].load();
     if (!mesh) continue;
-    const plume::test::SoakMesh made(sources[s].name, std::move(*mesh), sources[s].fills_bounds);
+    const auto made =
+        plume::test::make_soak_mesh(sources[s].name, std::move(*mesh), sources[s].fills_bounds);
     // What is left, shared among the meshes that are left.
     const std::uint64_t rays =
         (options.rays - std::min(options.rays, total.rays)) / (sources.size() - s);
-    const SoakTally tally = soak_mesh(made, options, rays, sets);
-    print(made.name, tally, made.fills_bounds, since(begin));
+    const SoakTally tally = soak_mesh(*made, options, rays, sets);
+    print(sources[s].name, tally, sources[s].fills_bounds, since(begin));
     if (!tally.problem.empty()) fmt::print("  {}\n", tally.problem);
     total.add(tally);
   }
@@ -138,6 +144,10 @@ int main(int argc, char** argv) {
     if (take(argument, "rays", options.rays) || take(argument, "seed", options.seed) ||
         take(argument, "threads", options.threads))
       continue;
+    if (argument.rfind("--form=", 0) == 0) {
+      options.form = argument.substr(7);
+      continue;
+    }
     std::fputs(kHelp, argument == "--help" ? stdout : stderr);
     return argument == "--help" ? 0 : 2;
   }

@@ -77,8 +77,32 @@ Mesh slabs(int size, double jitter) {
 }
 
 template <class Make>
-SoakSource made(const char* name, bool fills_bounds, const Make& make) {
-  return {name, fills_bounds, [make]() -> std::optional<Mesh> { return make(); }};
+SoakSource made(const char* name, bool fills_bounds, const Make& make,
+                const char* form = "tetrahedra") {
+  return {name, form, fills_bounds, [make]() -> std::optional<Mesh> { return make(); }};
+}
+
+// Hexahedra of a curvilinear grid, other cells, cuboids.
+SoakSource generated(const char* name, const char* form, const char* generator, int size,
+                     double jitter, bool fills_bounds = true) {
+  return {name, form, fills_bounds, [=]() -> std::optional<Mesh> {
+            return generate(generator, {size, jitter, 7});
+          }};
+}
+
+// Planes at uneven distances, 1e-6 to 1.
+Mesh uneven(double scale, double offset) {
+  Mesh mesh;
+  for (std::size_t a = 0; a < 3; ++a) {
+    std::vector<double> axis;
+    for (const double x : {0.0, 0.1, 0.25, 0.250001, 0.5, 0.875, 1.0})
+      axis.push_back(x * scale + offset);
+    mesh.dimensions[a] = static_cast<std::int64_t>(axis.size());
+    mesh.axes[a] = Array::own(std::move(axis));
+  }
+  mesh.fields = {
+      {"zero", Association::point, 1, Array::own(std::vector<float>(mesh.point_count(), 0.0f))}};
+  return mesh;
 }
 
 }  // namespace
@@ -121,7 +145,39 @@ const std::vector<SoakSource>& soak_sources() {
            [] {
              return generate("ball-tetrahedra", {6, 0.2, 1});
            }),
-      {"blunt fin", false, bench::mesh_sources().front().load},
+      {"blunt fin", "tetrahedra", false, bench::mesh_sources().front().load},
+      generated("grid, dyadic", "grid", "box-hexahedra", 8, 0),
+      generated("grid", "grid", "box-hexahedra", 5, 0),
+      generated("grid, jittered", "grid", "box-hexahedra", 10, 0.25),
+      generated("grid, twisted", "grid", "twisted", 10, 0.2),
+      generated("grid, inverted", "grid", "box-hexahedra", 8, 3),
+      made(
+          "grid, snapped", true,
+          [] {
+            return snapped(generate("box-hexahedra", {8, 0.6, 7}), 8);
+          },
+          "grid"),
+      made(
+          "grid, thin", true,
+          [] {
+            return scaled(generate("box-hexahedra", {8, 0.25, 7}), {1, 1, 1e-4});
+          },
+          "grid"),
+      generated("grid, O", "grid", "o-grid", 5, 0.2, false),
+      generated("grid, sphere", "grid", "sphere", 5, 0.2, false),
+      generated("mixed, dyadic", "cells", "box-mixed", 8, 0),
+      generated("mixed, jittered", "cells", "box-mixed", 8, 0.25),
+      generated("mixed, inverted", "cells", "box-mixed", 6, 3),
+      generated("wedges, jittered", "cells", "box-wedges", 8, 0.25),
+      generated("two blocks", "cells", "two-blocks", 8, 0.2),
+      generated("polyhedra, jittered", "cells", "box-polyhedra", 5, 0.25),
+      generated("rectilinear, dyadic", "rectilinear", "box-rectilinear", 8, 0),
+      made(
+          "rectilinear, uneven", true, [] { return uneven(1, 0); }, "rectilinear"),
+      made(
+          "rectilinear, 1e-9", true, [] { return uneven(1e-9, 0); }, "rectilinear"),
+      made(
+          "rectilinear, far away", true, [] { return uneven(1, 1e7); }, "rectilinear"),
   };
   return sources;
 }

@@ -1,4 +1,4 @@
-/// The meshes of the soak: tetrahedra from clean to hopeless.
+/// The meshes of the soak, from clean to hopeless.
 #pragma once
 
 #include <functional>
@@ -12,6 +12,8 @@ namespace plume::test {
 
 struct SoakSource {
   std::string name;
+  /// "tetrahedra", "grid", "cells" or "rectilinear": whose walker walks it.
+  std::string form;
   /// The mesh fills its bounds, so that what a ray covers is its chord with a box.
   bool fills_bounds;
   /// Nothing where a file is absent: that is said on stderr, loudly.

@@ -62,10 +62,12 @@ class Line {
 
 struct Crossings {
   Real sum = 0;  // of t, positive along the loop's normal, negative against it
+  Real half_squares = 0;
   std::array<int, 2> count{0, 0};
 
   void add(Real t, bool along) {
     sum += along ? t : -t;
+    half_squares += (along ? t : -t) * t / 2;
     ++count[along ? 0 : 1];
   }
 };
@@ -114,9 +116,10 @@ LineLengths line_lengths(const std::vector<CellLoops>& cells, const Point3& orig
   const Line line(origin, direction);
   LineLengths result;
   result.length.reserve(cells.size());
+  result.moment.reserve(cells.size());
   std::vector<Point> p;
   for (const CellLoops& cell : cells) {
-    Real sum = 0;
+    Real sum = 0, half_squares = 0;
     for (const auto& loop : cell) {
       p.clear();
       for (const Point3& corner : loop) p.push_back(line(corner));
@@ -137,8 +140,10 @@ LineLengths line_lengths(const std::vector<CellLoops>& cells, const Point3& orig
           cross_triangle(center, p[i], p[(i + 1) % p.size()], found);
       }
       sum += found.sum;
+      half_squares += found.half_squares;
     }
     result.length.push_back(static_cast<double>(std::abs(sum)));
+    result.moment.push_back(static_cast<double>(sum < 0 ? -half_squares : half_squares));
   }
   return result;
 }

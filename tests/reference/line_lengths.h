@@ -18,6 +18,8 @@ using CellLoops = std::vector<std::vector<Point3>>;
 struct LineLengths {
   /// Of each cell: the sum over its faces of where the line goes out, less where it comes in.
   std::vector<double> length;
+  /// Of each cell: the integral of t over that part of the line.
+  std::vector<double> moment;
   /// Patches that are crossed twice, each counted once a cell.
   std::size_t grazes = 0;
 };
