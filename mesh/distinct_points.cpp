@@ -18,8 +18,8 @@ namespace {
 
 void check_set(const PointSet& set) {
   if (set.points.size() % 3 != 0)
-    throw Error(fmt::format("the point array has {} values, which is no multiple of 3",
-                            set.points.size()));
+    throw Error(
+        fmt::format("the point array has {} values, which is no multiple of 3", set.points.size()));
   if (set.point_count() == 0) throw Error("there are no points");
   constexpr std::size_t kMost = std::size_t{1} << 31;  // as a mesh can have (validate.cpp)
   if (set.point_count() >= kMost)
@@ -74,9 +74,7 @@ std::uint32_t DistinctPoints::original(std::size_t point) const {
 DistinctPoints distinct_points(const PointSet& set, std::vector<Finding>& findings) {
   check_set(set);
   DistinctPoints distinct;
-  set.points.visit([&](auto values) {
-    distinct.coordinates.assign(values.begin(), values.end());
-  });
+  set.points.visit([&](auto values) { distinct.coordinates.assign(values.begin(), values.end()); });
   const std::vector<std::uint32_t> first = first_coincident(distinct.coordinates);
   if (first.empty()) return distinct;
   Finding merged{"points in the place of an earlier one: left out", 0, {}};
@@ -138,8 +136,7 @@ std::string describe_spread(const DistinctPoints& points) {
   const Furthest b = furthest([&](const Vector& p) { return length(minus(p, a)); });
   Vector along = minus(at(b.point), a);
   for (double& x : along) x /= b.distance > 0 ? b.distance : 1;
-  const Furthest c =
-      furthest([&](const Vector& p) { return length(cross(along, minus(p, a))); });
+  const Furthest c = furthest([&](const Vector& p) { return length(cross(along, minus(p, a))); });
   Vector normal = cross(along, minus(at(c.point), a));
   for (double& x : normal) x /= c.distance > 0 ? c.distance : 1;
   const Furthest d = furthest([&](const Vector& p) { return std::abs(dot(normal, minus(p, a))); });

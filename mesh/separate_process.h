@@ -33,10 +33,10 @@ struct SeparateRun {
 };
 
 /// Calls `work` in a copy of this process made by fork(), and waits for it. Whatever `work` does
-/// there (abort, a signal, std::terminate, a changed variable) leaves this process as it is: signals
-/// have their default handlers, nothing reaches this process' standard output or error, no core is
-/// dumped, no exit handler runs. An exception that leaves `work` counts as an abort. If this process
-/// ends, so does the other.
+/// there (abort, a signal, std::terminate, a changed variable) leaves this process as it is:
+/// signals have their default handlers, nothing reaches this process' standard output or error, no
+/// core is dumped, no exit handler runs. An exception that leaves `work` counts as an abort. If
+/// this process ends, so does the other.
 ///
 /// Only the calling thread exists in the copy, so `work` must not wait for another (no TBB). It may
 /// allocate, as glibc's fork() keeps the heap usable in a program with threads. Throws Error where

@@ -138,8 +138,7 @@ std::string words_of(const std::string& said) {
 
 // Runs TetGen; gives how it failed, empty where it did not.
 std::string run(const Input& input, const std::string& switches, Output& output) {
-  const SeparateRun other =
-      run_separately([&](ResultFile& file) { work(input, switches, file); });
+  const SeparateRun other = run_separately([&](ResultFile& file) { work(input, switches, file); });
   if (!other.failure.empty()) return other.failure + words_of(other.said);
   std::memcpy(&output.header, other.result.data(), sizeof output.header);
   const Header& header = output.header;
@@ -216,8 +215,7 @@ Array tetgen_delaunay(std::span<const double> points) {
 
 TetgenMesh tetgen_fill(std::span<const double> points,
                        const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                       const std::vector<std::uint32_t>& numbers,
-                       const SurfaceMeshing& meshing) {
+                       const std::vector<std::uint32_t>& numbers, const SurfaceMeshing& meshing) {
   check_count(points.size() / 3, "points");
   check_count(triangles.size(), "triangles");
   const Input input{points, &triangles, &numbers};

@@ -33,7 +33,6 @@ struct TetgenMesh {
 /// `numbers`.
 TetgenMesh tetgen_fill(std::span<const double> points,
                        const std::vector<std::array<std::uint32_t, 3>>& triangles,
-                       const std::vector<std::uint32_t>& numbers,
-                       const SurfaceMeshing& meshing);
+                       const std::vector<std::uint32_t>& numbers, const SurfaceMeshing& meshing);
 
 }  // namespace plume

@@ -55,9 +55,9 @@ void check_all_used(const DistinctPoints& points, const Array& corners) {
   for (std::size_t i = 0; i < used.size(); ++i)
     if (!used[i] && ++unused <= 5) examples += ' ' + describe_point(points, i);
   if (unused > 0)
-    throw Error(fmt::format(
-        "TetGen leaves out {} points, too close to others{}{}; merge them, or use CGAL", unused,
-        unused > 5 ? ", among them" : ":", examples));
+    throw Error(
+        fmt::format("TetGen leaves out {} points, too close to others{}{}; merge them, or use CGAL",
+                    unused, unused > 5 ? ", among them" : ":", examples));
 }
 
 }  // namespace

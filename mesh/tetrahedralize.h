@@ -53,30 +53,32 @@ struct Tetrahedralization {
 ///
 /// Points are neither moved nor added. Of points with equal coordinates (0 and -0 are equal) the
 /// first is kept with its values, which is a finding; where there are none, point i of the mesh is
-/// point i of the set. Where five or more points lie on a sphere, one of several tetrahedralizations
-/// is made, which one depends on the engine. Both engines decide exactly, CGAL everywhere, TetGen
-/// but for points within 1e-8 of the set's size of each other or of one plane, which it may refuse.
+/// point i of the set. Where five or more points lie on a sphere, one of several
+/// tetrahedralizations is made, which one depends on the engine. Both engines decide exactly, CGAL
+/// everywhere, TetGen but for points within 1e-8 of the set's size of each other or of one plane,
+/// which it may refuse.
 ///
-/// Throws Error without the engine; where coordinates are not finite, fewer than four points differ,
-/// or all are in a plane, naming points and coordinates; and where the engine fails, with its
-/// words. TetGen runs in a process of its own (see separate_process.h), for it may abort.
+/// Throws Error without the engine; where coordinates are not finite, fewer than four points
+/// differ, or all are in a plane, naming points and coordinates; and where the engine fails, with
+/// its words. TetGen runs in a process of its own (see separate_process.h), for it may abort.
 Tetrahedralization tetrahedralize(
-    const PointSet& points,
-    TetrahedralizationEngine engine = TetrahedralizationEngine::automatic);
+    const PointSet& points, TetrahedralizationEngine engine = TetrahedralizationEngine::automatic);
 
+/// Bounds that TetGen refines a surface's tetrahedra for. They are aims: a few tetrahedra may
+/// remain beyond them (a volume by some percent), which a finding counts.
 struct SurfaceMeshing {
-  /// TetGen's -q: no tetrahedron's circumscribed sphere has a radius above this many times the
-  /// tetrahedron's shortest edge; above 1, or 0 for no bound. TetGen reaches 2 always but where the
-  /// surface itself has sharp angles, 1.4 most often.
+  /// TetGen's -q: the radius of a tetrahedron's circumscribed sphere by its shortest edge; 1 to
+  /// 1000, or 0 for no bound. 2 comes to an end but where the surface itself has sharp angles, 1.4
+  /// most often; 1.1 need not.
   double radius_edge_ratio = 0;
-  /// TetGen's -q: no dihedral angle is smaller than this, in degrees; 0 (no bound) to 40, and needs
-  /// a radius_edge_ratio. TetGen often reaches 10 to 18.
+  /// TetGen's -q: the smallest dihedral angle, in degrees; 0 (no bound) to 40, and needs a
+  /// radius_edge_ratio. 10 to 15 is often reached; 20 need not come to an end.
   double dihedral_angle = 0;
-  /// TetGen's -a: no tetrahedron is larger than this, in the mesh's unit of length, cubed; 0 for no
+  /// TetGen's -a: the largest tetrahedron's volume, in the mesh's unit of length, cubed; 0 for no
   /// bound.
   double volume = 0;
-  /// TetGen's -S: no more points than this are added for the bounds above, which then need not
-  /// hold; a finding says so. At least 1.
+  /// TetGen's -S: refinement ends when it has added this many points, which a finding says. At
+  /// least 1.
   int added_points = 10'000'000;
 };
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -12,6 +12,7 @@
 #include "plume/mesh/error.h"
 #include "plume/mesh/tetrahedralization_engines.h"
 #include "plume/mesh/tetrahedralize.h"
+#include "plume/mesh/tetrahedron_quality.h"
 
 namespace plume {
 namespace {
@@ -95,6 +96,37 @@ Mesh keep_enclosed(const TetgenMesh& filled) {
   return mesh;
 }
 
+// TetGen's last optimization may leave a few tetrahedra beyond the bounds.
+void check_bounds(const Mesh& mesh, const SurfaceMeshing& meshing, std::vector<Finding>& findings) {
+  constexpr double kRounding = 1 + 1e-9;
+  double worst_ratio = 0, worst_angle = 180, worst_volume = 0;
+  Finding ratio, angle, volume;
+  for (std::size_t t = 0; t < mesh.cell_count(); ++t) {
+    std::array<std::array<double, 3>, 4> points;
+    for (std::size_t c = 0; c < 4; ++c)
+      for (std::size_t a = 0; a < 3; ++a)
+        points[c][a] =
+            mesh.points.at<double>(3 * mesh.cells.connectivity.at<std::size_t>(4 * t + c) + a);
+    const TetrahedronQuality quality = quality_of(points);
+    worst_ratio = std::max(worst_ratio, quality.radius_edge_ratio);
+    worst_angle = std::min(worst_angle, quality.dihedral_angle);
+    worst_volume = std::max(worst_volume, quality.volume);
+    if (meshing.radius_edge_ratio > 0 &&
+        quality.radius_edge_ratio > meshing.radius_edge_ratio * kRounding)
+      add_example(ratio, t);
+    if (quality.dihedral_angle * kRounding < meshing.dihedral_angle) add_example(angle, t);
+    if (meshing.volume > 0 && quality.volume > meshing.volume * kRounding) add_example(volume, t);
+  }
+  ratio.what = fmt::format("of {} tetrahedra have a radius-edge ratio above {} (at most {:.3g})",
+                           mesh.cell_count(), meshing.radius_edge_ratio, worst_ratio);
+  angle.what = fmt::format("of {} tetrahedra have a dihedral angle below {} (at least {:.3g})",
+                           mesh.cell_count(), meshing.dihedral_angle, worst_angle);
+  volume.what = fmt::format("of {} tetrahedra have a volume above {} (at most {:.3g})",
+                            mesh.cell_count(), meshing.volume, worst_volume);
+  for (Finding* finding : {&ratio, &angle, &volume})
+    if (finding->count > 0) findings.push_back(std::move(*finding));
+}
+
 }  // namespace
 
 Tetrahedralization tetrahedralize(const TriangleSurface& surface, const SurfaceMeshing& meshing) {
@@ -108,11 +140,11 @@ Tetrahedralization tetrahedralize(const TriangleSurface& surface, const SurfaceM
   const TetgenMesh filled =
       tetgen_fill(points.coordinates, cleaned.triangles, cleaned.numbers, meshing);
   result.mesh = keep_enclosed(filled);
+  check_bounds(result.mesh, meshing, result.findings);
   const std::size_t added = filled.points.size() / 3 - points.count();
   if (added >= static_cast<std::size_t>(meshing.added_points))
     result.findings.push_back(
-        {"points added, the most that were allowed: bounds on the tetrahedra may not hold", added,
-         {}});
+        {"points added, the most that were allowed: refinement is not finished", added, {}});
   if (!surface.vertices.fields.empty())
     result.findings.push_back({"fields of the surface left out: points inside have no values",
                                surface.vertices.fields.size(),

@@ -7,11 +7,11 @@
 #include <limits>
 #include <set>
 
+#include "plume/mesh/error.h"
+#include "plume/mesh/validate.h"
 #include "plume/tests/preint/seeded_rapidcheck.h"
 #include "plume/tests/reference/delaunay_property.h"
 #include "plume/tests/reference/exact_delaunay.h"
-#include "plume/mesh/error.h"
-#include "plume/mesh/validate.h"
 #include "point_clouds.h"
 
 namespace plume::test {
@@ -140,7 +140,8 @@ TEST_P(Tetrahedralize, KeepsTheFirstOfEqualPoints) {
   const Tetrahedralization result = tetrahedralize(set, GetParam());
   ASSERT_EQ(result.mesh.point_count(), 4u);
   ASSERT_EQ(result.findings.size(), 2u);
-  EXPECT_EQ(describe(result.findings[0]), "2 points in the place of an earlier one: left out: 2, 4");
+  EXPECT_EQ(describe(result.findings[0]),
+            "2 points in the place of an earlier one: left out: 2, 4");
   EXPECT_EQ(result.findings[1].examples, std::vector<std::size_t>{2});
   const Array& values = result.mesh.fields[0].values;
   ASSERT_EQ(values.type(), Array::Type::int32);
@@ -179,8 +180,8 @@ TEST_P(Tetrahedralize, NamesWhatIsFlat) {
 }
 
 TEST_P(Tetrahedralize, NamesACoordinateThatIsNotFinite) {
-  for (const double bad : {std::numeric_limits<double>::quiet_NaN(),
-                           -std::numeric_limits<double>::infinity()})
+  for (const double bad :
+       {std::numeric_limits<double>::quiet_NaN(), -std::numeric_limits<double>::infinity()})
     expect_parts(error_of(point_set({{0, 0, 0}, {1, 0, 0}, {0, bad, 0}, {0, 0, 1}}), GetParam()),
                  {"point 2 is at (0, ", "finite"});
 }

@@ -57,8 +57,8 @@ std::size_t count_not_delaunay(const Points& points, const Tetrahedra& tetrahedr
   std::size_t bad = 0;
   for (const auto& [face, fourth] : faces(tetrahedra))
     if (fourth.size() == 2 &&
-        CGAL::side_of_bounded_sphere(at(points, face[0]), at(points, face[1]),
-                                     at(points, face[2]), at(points, fourth[0]),
+        CGAL::side_of_bounded_sphere(at(points, face[0]), at(points, face[1]), at(points, face[2]),
+                                     at(points, fourth[0]),
                                      at(points, fourth[1])) == CGAL::ON_BOUNDED_SIDE)
       ++bad;
   return bad;
