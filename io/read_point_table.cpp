@@ -39,7 +39,7 @@ std::string_view trimmed(std::string_view text) {
 // Lines of text with values in them, comments and empty lines left out, each cut into its columns.
 class Lines {
  public:
-  explicit Lines(const std::filesystem::path& file) {
+  explicit Lines(const std::filesystem::path& file) : tabs_(lower_extension(file) == ".csv") {
     std::ifstream stream(file, std::ios::binary);
     if (!stream) throw Error(file.string() + ": cannot be opened; check its permissions");
     text_.assign(std::istreambuf_iterator<char>(stream), {});
@@ -61,7 +61,8 @@ class Lines {
     if (!separator_) {
       separator_ = ' ';
       for (const char c : {',', ';', '\t'})
-        if (*separator_ == ' ' && line.find(c) != std::string_view::npos) separator_ = c;
+        if (*separator_ == ' ' && (c != '\t' || tabs_) && line.find(c) != std::string_view::npos)
+          separator_ = c;
     }
     cut(line, columns);
     return true;
@@ -88,6 +89,7 @@ class Lines {
   }
 
   std::string text_;
+  bool tabs_;  // separate columns, which may be empty; elsewhere they are blanks
   std::size_t at_ = 0, number_ = 0;
   std::optional<char> separator_;
 };
