@@ -10,7 +10,8 @@ if(PLUME_WITH_TETGEN)
     message(FATAL_ERROR "PLUME_WITH_TETGEN is on, and TetGen is not installed (Debian: libtet1.5-dev)")
   endif()
   message(NOTICE "plume: with TetGen (PLUME_WITH_TETGEN): this build falls under the GNU AGPL, version 3 "
-                 "or later. Whoever passes it on, or offers it over a network, must offer its source.")
+                 "or later. Whoever passes it on must offer its source, and whoever changes it and lets "
+                 "others use it over a network as well (README.md).")
 endif()
 if(PLUME_WITH_CGAL)
   find_package(CGAL 5.5 QUIET)
@@ -18,7 +19,7 @@ if(PLUME_WITH_CGAL)
     message(FATAL_ERROR "PLUME_WITH_CGAL is on, and CGAL 5.5 is not installed (Debian: libcgal-dev)")
   endif()
   message(NOTICE "plume: with CGAL's 3D triangulations (PLUME_WITH_CGAL): this build falls under the GNU "
-                 "GPL, version 3 or later. Whoever passes it on must offer its source.")
+                 "GPL, version 3 or later. Whoever passes it on must offer its source (README.md).")
 endif()
 if(NOT PLUME_WITH_TETGEN AND NOT PLUME_WITH_CGAL)
   message(STATUS "Point clouds: off. PLUME_WITH_TETGEN (AGPL) or PLUME_WITH_CGAL (GPL) turns them on.")
