@@ -1,6 +1,7 @@
-// TetGen, in a process of its own: Debian's library (1.5.0) throws where it can, but asserts
-// elsewhere, frees twice after some of its own errors, and keeps predicates' bounds in globals.
-// This file alone includes its header.
+// TetGen, in a process of its own: Debian's library (1.5.0) throws where TetGen would exit, but
+// aborts on points in a plane, crashes on points in a line and after finding that a surface
+// intersects itself, and keeps its predicates' bounds in globals. This file alone includes its
+// header.
 #define TETLIBRARY
 #include <fmt/format.h>
 #include <tetgen.h>
@@ -65,7 +66,7 @@ void write(ResultFile& file, const T* values, std::int64_t count) {
   if (count > 0) file.write(std::as_bytes(std::span(values, static_cast<std::size_t>(count))));
 }
 
-// In the other process. What TetGen holds is never freed there: it would be freed twice.
+// In the other process, which ends after it: nothing is freed, for that is one more thing to fail.
 void work(const Input& input, std::string switches, ResultFile& file) {
   auto& in = *new tetgenio;
   auto& out = *new tetgenio;
