@@ -231,7 +231,7 @@ vtkSmartPointer<vtkDataObject> poly_data(const Columns& columns,
 bool is_text(const std::filesystem::path& file) {
   const std::string start = first_bytes(file, 512);
   return std::all_of(start.begin(), start.end(), [](unsigned char c) {
-    return c >= 32 || c == '\n' || c == '\r' || c == '\t' || c == '\f';
+    return (c >= 32 && c != 127) || c == '\n' || c == '\r' || c == '\t' || c == '\f';
   });
 }
 

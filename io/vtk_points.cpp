@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "plume/io/read_blocks.h"
+#include "plume/io/read_file.h"
 #include "plume/io/vtk_arrays.h"
 #include "plume/io/vtk_data_sets.h"
 #include "plume/mesh/error.h"
@@ -26,6 +27,12 @@ bool only_vertices(vtkDataSet& set) {
     if (type != VTK_VERTEX && type != VTK_POLY_VERTEX && type != VTK_EMPTY_CELL) return false;
   }
   return true;
+}
+
+// In VTK's own formats points without cells are meant; in others cells are missing.
+bool may_lack_cells(const std::filesystem::path& file) {
+  const std::string extension = lower_extension(file);
+  return extension.starts_with(".vt") || extension.starts_with(".pvt") || extension == ".pvd";
 }
 
 // Points and fields of points, as a mesh without cells.
@@ -78,14 +85,15 @@ vtkSmartPointer<vtkPolyData> faces_of(vtkPointSet& set, const std::filesystem::p
 }  // namespace
 
 std::optional<PointSet> point_set_in(vtkDataObject& data, const std::filesystem::path& file,
-                                     bool without_cells, const Notice& notice) {
+                                     bool without_fields, const Notice& notice) {
   std::vector<Mesh> parts;
   for (const auto& set : data_sets_in(data)) {
     if (set->GetNumberOfPoints() == 0 && set->GetNumberOfCells() == 0) continue;
     auto* const points = vtkPointSet::SafeDownCast(set);
     if (!points || !points->GetPoints() || !only_vertices(*set)) return std::nullopt;
     parts.push_back(points_of(*points, file, notice));
-    if (set->GetNumberOfCells() == 0 && parts.back().fields.empty() && !without_cells)
+    if (set->GetNumberOfCells() == 0 &&
+        !(may_lack_cells(file) && (without_fields || !parts.back().fields.empty())))
       return std::nullopt;
   }
   if (parts.empty()) return std::nullopt;

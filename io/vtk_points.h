@@ -13,11 +13,11 @@ class vtkPolyData;
 namespace plume {
 
 /// The data set's points and their fields where it is nothing but points: it has points, and no
-/// cells but vertices. Of a composite one, all of its data sets, appended. Data sets without cells
-/// count where `without_cells` says so, or they have fields: what else has points and no cells is
-/// more likely a damaged mesh.
+/// cells but vertices. Of a composite one, all of its data sets, appended. What has no cells at all
+/// counts in VTK's own formats alone, and where it has fields or `without_fields` says so: else it
+/// is more likely a mesh that was cut short.
 std::optional<PointSet> point_set_in(vtkDataObject& data, const std::filesystem::path& file,
-                                     bool without_cells, const Notice& notice);
+                                     bool without_fields, const Notice& notice);
 
 /// Gives the data set one cell, a vertex of all its points, for it is meant to be nothing else.
 void mark_as_points(vtkPolyData& data);
