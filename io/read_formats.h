@@ -17,7 +17,7 @@ using OpenedFile = std::unique_ptr<StepReader>;
 OpenedFile open_mesh(const std::filesystem::path& file, const ReadOptions& options,
                      const Notice& notice);
 
-/// .vtu .pvtu .vts .pvts .vti .pvti .vtr .pvtr .vtm, and legacy .vtk.
+/// .vtu .pvtu .vts .pvts .vti .pvti .vtr .pvtr .vtp .vtm, and legacy .vtk.
 OpenedFile open_vtk_file(const std::filesystem::path& file, const ReadOptions& options,
                          const Notice& notice);
 
@@ -40,5 +40,25 @@ OpenedFile open_cgns(const std::filesystem::path& file, const ReadOptions& optio
                      const Notice& notice);
 OpenedFile open_fluent(const std::filesystem::path& file, const ReadOptions& options,
                        const Notice& notice);
+
+/// x, y, z and values of a point on each line (.csv, .xyz), separated by commas, semicolons, tabs
+/// or blanks, with or without a header of names.
+OpenedFile open_point_table(const std::filesystem::path& file, const ReadOptions& options,
+                            const Notice& notice);
+/// .xyz: a Plot3D grid where it is one, else a point table.
+OpenedFile open_xyz(const std::filesystem::path& file, const ReadOptions& options,
+                    const Notice& notice);
+/// With all properties of vertices, and polygons where there are any.
+OpenedFile open_ply(const std::filesystem::path& file, const ReadOptions& options,
+                    const Notice& notice);
+OpenedFile open_stl(const std::filesystem::path& file, const ReadOptions& options,
+                    const Notice& notice);
+OpenedFile open_obj(const std::filesystem::path& file, const ReadOptions& options,
+                    const Notice& notice);
+
+/// What the step that the options ask for holds, by default the last, of a file of any format.
+/// Throws Error as open_mesh(), and where there is no such step.
+vtkSmartPointer<vtkDataObject> read_data(const std::filesystem::path& file,
+                                         const ReadOptions& options, const Notice& notice);
 
 }  // namespace plume

@@ -30,15 +30,22 @@ OpenedFile open_g(const std::filesystem::path& file, const ReadOptions& options,
 }
 
 constexpr std::array formats{
-    Format{".vtu", open_vtk_file},  Format{".pvtu", open_vtk_file}, Format{".vtk", open_vtk_file},
-    Format{".vts", open_vtk_file},  Format{".pvts", open_vtk_file}, Format{".vti", open_vtk_file},
-    Format{".pvti", open_vtk_file}, Format{".vtr", open_vtk_file},  Format{".pvtr", open_vtk_file},
-    Format{".vtm", open_vtk_file},  Format{".pvd", open_pvd},       Format{".xyz", open_plot3d},
-    Format{".x", open_plot3d},      Format{".g", open_g},           Format{".p3d", open_plot3d},
-    Format{".bin", open_plot3d},    Format{".fmt", open_plot3d},    Format{".grid", open_plot3d},
-    Format{".e", open_exodus},      Format{".ex2", open_exodus},    Format{".exo", open_exodus},
-    Format{".exii", open_exodus},   Format{".case", open_ensight},  Format{".foam", open_openfoam},
-    Format{".cgns", open_cgns},     Format{".cas", open_fluent},    Format{".msh", open_fluent},
+    Format{".vtu", open_vtk_file},  Format{".pvtu", open_vtk_file},
+    Format{".vtk", open_vtk_file},  Format{".vts", open_vtk_file},
+    Format{".pvts", open_vtk_file}, Format{".vti", open_vtk_file},
+    Format{".pvti", open_vtk_file}, Format{".vtr", open_vtk_file},
+    Format{".pvtr", open_vtk_file}, Format{".vtm", open_vtk_file},
+    Format{".pvd", open_pvd},       Format{".xyz", open_xyz},
+    Format{".x", open_plot3d},      Format{".g", open_g},
+    Format{".p3d", open_plot3d},    Format{".bin", open_plot3d},
+    Format{".fmt", open_plot3d},    Format{".grid", open_plot3d},
+    Format{".e", open_exodus},      Format{".ex2", open_exodus},
+    Format{".exo", open_exodus},    Format{".exii", open_exodus},
+    Format{".case", open_ensight},  Format{".foam", open_openfoam},
+    Format{".vtp", open_vtk_file},  Format{".csv", open_point_table},
+    Format{".ply", open_ply},       Format{".stl", open_stl},
+    Format{".obj", open_obj},       Format{".cgns", open_cgns},
+    Format{".cas", open_fluent},    Format{".msh", open_fluent},
 };
 
 Opener opener_for(const std::filesystem::path& file) {
@@ -74,23 +81,27 @@ OpenedFile open_mesh(const std::filesystem::path& file, const ReadOptions& optio
   const Opener open = opener_for(file);
   // OpenFOAM users mark a case with an empty file.
   check_readable(file, open == &open_openfoam);
-  const bool plot3d = open == &open_plot3d || open == &open_g;
+  const bool plot3d = open == &open_plot3d || open == &open_g || open == &open_xyz;
   if (!plot3d && !options.solution.empty())
     throw Error(options.solution.string() + ": a solution file goes with a Plot3D grid, and " +
                 file.string() + " is none; leave it out");
   return open(file, options, notice);
 }
 
-Mesh read_mesh(const std::filesystem::path& file, const ReadOptions& options,
-               const Notice& notice) {
+vtkSmartPointer<vtkDataObject> read_data(const std::filesystem::path& file,
+                                         const ReadOptions& options, const Notice& notice) {
   const OpenedFile opened = open_mesh(file, options, notice);
   const int last = static_cast<int>(opened->step_count()) - 1;
   const int step = options.time_step.value_or(last);
   if (step < 0 || step > last)
     throw Error(file.string() + ": there is no time step " + std::to_string(step) +
                 "; choose one from 0 to " + std::to_string(last));
-  const auto data = opened->read(static_cast<std::size_t>(step), notice);
-  return mesh_from_vtk(*data, file, options, notice);
+  return opened->read(static_cast<std::size_t>(step), notice);
+}
+
+Mesh read_mesh(const std::filesystem::path& file, const ReadOptions& options,
+               const Notice& notice) {
+  return mesh_from_vtk(*read_data(file, options, notice), file, options, notice);
 }
 
 }  // namespace plume

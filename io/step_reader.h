@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -42,6 +43,20 @@ class StepReader {
 
  private:
   std::vector<double> times_;
+};
+
+/// A file without time that is read as a whole by a function.
+class WholeFile : public StepReader {
+ public:
+  using Read = std::function<vtkSmartPointer<vtkDataObject>(const Notice&)>;
+  explicit WholeFile(Read read) : StepReader({}), read_(std::move(read)) {}
+
+  vtkSmartPointer<vtkDataObject> read(std::size_t, const Notice& notice) override {
+    return read_(notice);
+  }
+
+ private:
+  Read read_;
 };
 
 }  // namespace plume
