@@ -235,6 +235,10 @@ PLUME_C_EXPORT plume_status plume_settings_set_threads(plume_settings* settings,
 /** The transmittance below which a ray ends, in [0, 1); 1e-4 by default. */
 PLUME_C_EXPORT plume_status plume_settings_set_early_termination(plume_settings* settings,
                                                                  double transmittance);
+/** The greatest error of a linear RGBA channel, in [0, 1), in the place of an order and an early
+ * termination: both are then chosen for each picture. */
+PLUME_C_EXPORT plume_status plume_settings_set_tolerance(plume_settings* settings,
+                                                         double max_error);
 /** Light on isosurfaces from the viewer (1) or none (0, the default); needs
  * PLUME_KEEP_GRADIENTS. */
 PLUME_C_EXPORT plume_status plume_settings_set_headlight(plume_settings* settings, int on);

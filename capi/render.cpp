@@ -95,6 +95,11 @@ plume_status plume_settings_set_early_termination(plume_settings* settings, doub
   return change(settings, __func__, [&] { settings->settings.early_termination = transmittance; });
 }
 
+plume_status plume_settings_set_tolerance(plume_settings* settings, double max_error) {
+  return change(settings, __func__,
+                [&] { settings->settings.tolerance.emplace().max_error = max_error; });
+}
+
 plume_status plume_settings_set_headlight(plume_settings* settings, int on) {
   return change(settings, __func__, [&] {
     settings->settings.lighting.reset();

@@ -13,13 +13,18 @@ constexpr double kMostOpaque = 0.9;
 
 }  // namespace
 
+std::vector<float> sample_for_map(std::span<const float> values) {
+  const std::size_t stride = std::max<std::size_t>(1, values.size() / 100000);
+  std::vector<float> sample;
+  sample.reserve(values.size() / stride + 1);
+  for (std::size_t i = 0; i < values.size(); i += stride) sample.push_back(values[i]);
+  return sample;
+}
+
 ColorMap fitted_color_map(std::span<const float> values,
                           const std::optional<std::array<double, 2>>& range) {
-  // A sample is enough for percentiles.
-  std::vector<float> sample;
-  const std::size_t stride = std::max<std::size_t>(1, values.size() / 100000);
-  for (std::size_t i = 0; i < values.size(); i += stride)
-    if (!std::isnan(values[i])) sample.push_back(values[i]);
+  std::vector<float> sample = sample_for_map(values);
+  std::erase_if(sample, [](float value) { return std::isnan(value); });
   std::sort(sample.begin(), sample.end());
 
   ColorMap map = *preset("turbo");

@@ -4,10 +4,15 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "plume/lib/color_map.h"
 
 namespace plume {
+
+/// As many of the values, spread evenly over all, as are enough for percentiles: all of fewer than
+/// 200,000, else 100,000 and more. A sample's sample is the sample.
+std::vector<float> sample_for_map(std::span<const float> values);
 
 /// The colours of "turbo" over the values' 1st to 99th percentile, in which a value is the more
 /// opaque the rarer it is: the free stream stays clear, and what differs from it is seen. Values

@@ -47,7 +47,10 @@ enum class Mode : std::uint8_t {
 
 /// A part of a picture, in pixels from its top left corner.
 struct PixelWindow {
-  int x = 0, y = 0, width = 1, height = 1;
+  int x = 0;       ///< of its first column
+  int y = 0;       ///< of its first row
+  int width = 1;   ///< columns, >= 1
+  int height = 1;  ///< rows, >= 1
 };
 
 /// An error to ask for, in the place of a method.
@@ -58,8 +61,8 @@ struct Tolerance {
   double max_error = 1e-3;
   /// What of RenderSettings is chosen; the others stay what they are there.
   bool choose_order = true;
-  bool choose_integrator = true;
-  bool choose_early_termination = true;
+  bool choose_integrator = true;         ///< likewise
+  bool choose_early_termination = true;  ///< likewise
 };
 
 /// What a picture shows, by which methods, and how large it is.

@@ -43,10 +43,10 @@ std::size_t boundary_face_count_of(const WalkableRectilinear& mesh) {
 }
 
 // See Scene::default_unit_distance().
-double fitted_unit_distance(const Scene& scene) {
+double fitted_unit_distance(const Scene& scene, const ColorMap& map) {
   constexpr int kAcross = 12;  // rays along each side, from each of three directions
   constexpr double kWanted = 4;
-  const ClosedForm optics(to_transfer_function(scene.default_color_map(), 1));
+  const ClosedForm optics(to_transfer_function(map, 1));
   std::vector<double> depths;
   for (const char* view : {"+x", "+y", "+z"}) {
     Camera camera = named_view(view, scene.bounds());
@@ -136,7 +136,7 @@ Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_un
   const bool keep_points = on_points && (options.keep_field_order || options.keep_gradients);
   const bool keep_cells = options.keep_cell_numbers || (!on_points && options.keep_field_order);
 
-  body_->default_map = fitted_color_map(field.values, options.color_range);
+  body_->sample = sample_for_map(field.values);
   take_words(*body_, read);
   auto take = [&](auto walkable) {
     auto& found = walkable->mesh.findings;
@@ -163,8 +163,7 @@ Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_un
     take(std::make_unique<Walkable<CellWalker>>(std::move(cells)));
   }
   read.field.values = {};
-  body_->unit_distance = fitted_unit_distance(*this);
-  set_transfer_function(to_transfer_function(body_->default_map, body_->unit_distance));
+  set_transfer_function(to_transfer_function(default_color_map(), default_unit_distance()));
 }
 
 void Scene::set_field(const Mesh& mesh, const FieldRequest& request) {
@@ -184,7 +183,9 @@ void Scene::set_field(const Mesh& mesh, const FieldRequest& request) {
         "field '{}' is {} and the scene was made of one that is {}; make a scene anew",
         read.field.name, kind_of(read.field.association), kind_of(body.field.association)));
 
-  body.default_map = fitted_color_map(read.field.values, body.options.color_range);
+  body.sample = sample_for_map(read.field.values);
+  body.default_map.reset();
+  body.unit_distance.reset();
   take_words(body, read);
   std::visit(
       [&](const auto& walkable) {
@@ -192,7 +193,6 @@ void Scene::set_field(const Mesh& mesh, const FieldRequest& request) {
         put_scalars(walkable->mesh, std::move(read.field));
       },
       body.walkable);
-  body.unit_distance = fitted_unit_distance(*this);
 }
 
 Scene::~Scene() = default;
@@ -203,10 +203,23 @@ const Bounds& Scene::bounds() const { return body_->bounds; }
 const ScalarField& Scene::field() const { return body_->field; }
 bool Scene::cell_data_averaged() const { return body_->cell_data_averaged; }
 const std::vector<Finding>& Scene::findings() const { return body_->findings; }
-const ColorMap& Scene::default_color_map() const { return body_->default_map; }
 const TransferFunction& Scene::transfer_function() const { return body_->transfer_function; }
 
-double Scene::default_unit_distance() const { return body_->unit_distance; }
+const ColorMap& Scene::default_color_map() const {
+  const std::lock_guard lock(body_->fitting);
+  if (!body_->default_map) {
+    body_->default_map = fitted_color_map(body_->sample, body_->options.color_range);
+    body_->sample = {};
+  }
+  return *body_->default_map;
+}
+
+double Scene::default_unit_distance() const {
+  const ColorMap& map = default_color_map();
+  const std::lock_guard lock(body_->fitting);
+  if (!body_->unit_distance) body_->unit_distance = fitted_unit_distance(*this, map);
+  return *body_->unit_distance;
+}
 
 void Scene::set_transfer_function(TransferFunction transfer_function) {
   if (const auto problem = transfer_function.problem())

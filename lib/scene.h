@@ -82,8 +82,8 @@ class Scene {
 
   /// Shows another field, or new values of the same: for a solver whose mesh stays. Nothing is
   /// rebuilt but what depends on the field: the scalars in the walkable mesh, gradients where they
-  /// are kept, findings, default colour map and unit distance. The classification stays, so that
-  /// pictures before and after can be compared; to fit it anew,
+  /// are kept, findings, and, once they are asked for, default colour map and unit distance. The
+  /// classification stays, so that pictures before and after can be compared; to fit it anew,
   /// `set_transfer_function(to_transfer_function(default_color_map(), default_unit_distance()))`.
   /// Then all is bit for bit as in a scene made anew.
   ///

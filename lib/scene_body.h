@@ -2,8 +2,10 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "plume/lib/gradient_field.h"
 #include "plume/lib/scene.h"
@@ -37,8 +39,11 @@ struct Scene::Body {
   bool cell_data_averaged = false;
   std::vector<Finding> findings;      // of the field, then of the mesh
   std::size_t findings_of_field = 0;  // how many of them
-  ColorMap default_map;
-  double unit_distance = 1;
+  // Fitted to the field when they are asked for: a solver with colours of its own never does.
+  mutable std::mutex fitting;
+  mutable std::vector<float> sample;  // of the field's values, until the map is fitted
+  mutable std::optional<ColorMap> default_map;
+  mutable std::optional<double> unit_distance;
   TransferFunction transfer_function;
   Classification classification;
   std::optional<GradientField> gradients;

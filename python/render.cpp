@@ -159,6 +159,10 @@ Scene.camera() makes one that sees all of a scene.)")
           "early_termination",
           [](const RenderArguments& self) { return self.settings.early_termination; },
           [](RenderArguments& self, double share) { self.settings.early_termination = share; })
+      .def("set_tolerance",
+           [](RenderArguments& self, double max_error) {
+             self.settings.tolerance.emplace().max_error = max_error;
+           })
       .def_property(
           "channels", [](const RenderArguments& self) { return self.settings.channels; },
           [](RenderArguments& self, std::vector<std::string> channels) {

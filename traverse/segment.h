@@ -15,11 +15,12 @@ enum class ScalarOrder : std::uint8_t { linear = 1, quadratic = 2, cubic = 3, ad
 
 /// How closely segments are to follow the interpolation inside of cells.
 struct ScalarRequest {
-  ScalarOrder order = ScalarOrder::linear;
+  ScalarOrder order = ScalarOrder::linear;  ///< the polynomial
   /// `adaptive`: by how much the scalar may be off where it is looked at, in the field's unit.
   double tolerance = 0;
 
   ScalarRequest() = default;
+  /// An order alone will do but for `adaptive`.
   ScalarRequest(ScalarOrder asked, double off_by = 0) : order(asked), tolerance(off_by) {}
 };
 

@@ -49,8 +49,8 @@ class Mesh:
         as cells, of points. See also :meth:`add_field`.
 
     Arrays of float32, float64, int32 and int64 (uint8 for types) that are contiguous in memory are
-    not copied; others are, once, and listed in :attr:`copied`. Do not change an array's size, points
-    or cells while the mesh is in use. Values of fields may change: see :meth:`Scene.set_field`.
+    not copied; others are, once, and listed in :attr:`copied`. Do not change an array's size, points or
+    cells while the mesh is in use. Values of fields may change: see :meth:`Scene.set_field`.
     """
 
     def __init__(self, points=None, cells=None, *, dimensions=None, axes=None, hidden=None,
@@ -92,7 +92,8 @@ class Mesh:
         """
         values = self._array(values, f"field '{name}'", NUMBERS, None)
         if values.ndim not in (1, 2):
-            raise Error(f"field '{name}' has the shape {values.shape}: give (n,) or (n, components)")
+            raise Error(f"field '{name}' has the shape {values.shape}: give (n,) or "
+                        "(n, components)")
         if association is None:
             counts = {"point": self.point_count, "cell": self.cell_count}
             fitting = [kind for kind, count in counts.items() if count == len(values)]
@@ -101,7 +102,8 @@ class Mesh:
                             f"{self.point_count} points and {self.cell_count} cells")
             association = fitting[0]
         elif association not in ("point", "cell"):
-            raise Error(f"field '{name}': association '{association}' is neither 'point' nor 'cell'")
+            raise Error(f"field '{name}': association '{association}' is neither 'point' nor "
+                        "'cell'")
         components = values.shape[1] if values.ndim == 2 else 1
         self._native.add_field(str(name), association == "point", components, values)
 

@@ -159,9 +159,10 @@ class Scene:
 
     def _tables(self):
         isosurfaces, intervals, volume = self._rows
-        return (np.asarray(isosurfaces, np.float32).reshape(len(isosurfaces), -1 if isosurfaces else 5),
-                np.asarray(intervals, np.float32).reshape(len(intervals), -1 if intervals else 6),
-                volume)
+        def table(rows, columns):
+            return np.asarray(rows, np.float32).reshape(len(rows), -1 if rows else columns)
+
+        return table(isosurfaces, 5), table(intervals, 6), volume
 
     def camera(self, view="iso", aspect_ratio=4 / 3, *, azimuth=0.0, elevation=0.0, zoom=1.0):
         """A camera that sees all of the scene.
@@ -175,8 +176,8 @@ class Scene:
             camera = _plume.orbit(camera, float(azimuth), float(elevation))
         return camera if zoom == 1 else _plume.zoom(camera, float(zoom))
 
-    def render(self, size=(1024, 768), *, camera="iso", mode="volume", order=1, light=None,
-               clip=(), channels=(), early_termination=1e-4, threads=0, progress=None):
+    def render(self, size=(1024, 768), *, camera="iso", mode="volume", order=1, tolerance=None,
+               light=None, clip=(), channels=(), early_termination=1e-4, threads=0, progress=None):
         """Renders a :class:`Picture`. Other Python threads run meanwhile; Ctrl-C interrupts.
 
         Parameters
@@ -194,6 +195,9 @@ class Scene:
         order : 1, 2 or 3
             The scalar inside of cells that are no tetrahedra is linear, quadratic or cubic along a
             ray.
+        tolerance : float, optional
+            The greatest error of a channel, in [0, 1), in the place of `order` and
+            `early_termination`: both are then chosen for the picture, and its "plan" says how.
         light : bool or (x, y, z), optional
             Light on surfaces from the viewer or from a direction; by default where the scene was
             made with ``light=True``.
@@ -213,6 +217,8 @@ class Scene:
         arguments.set_size(width, height)
         arguments.set_mode(mode)
         arguments.set_order(int(order))
+        if tolerance is not None:
+            arguments.set_tolerance(float(tolerance))
         if light is None:
             light = self._lit
         if light is not False:

@@ -113,6 +113,12 @@ TEST(CInterface, GivesThePicturesOfTheLibrary) {
     EXPECT_TRUE(same_bits(depth, image.channel("depth")->values));
 
     // Another field, another mode, its channel.
+    // To a tolerance, whichever method that takes.
+    EXPECT_EQ(plume_settings_set_tolerance(set, 1e-3), PLUME_OK);
+    ASSERT_EQ(plume_render(c_scene, &camera, set, kWidth, kHeight, rgba.data()), PLUME_OK);
+    settings.tolerance.emplace().max_error = 1e-3;
+    EXPECT_TRUE(same_bits(rgba, render(scene, ours, settings).image.rgba));
+
     ASSERT_EQ(plume_scene_set_field(c_scene, c, "waves"), PLUME_OK) << plume_last_error();
     plume_settings_free(set);
     ASSERT_EQ(plume_settings_create(&set), PLUME_OK);
@@ -184,6 +190,8 @@ TEST_F(CErrors, AreWordsAndStatus) {
   expect_refused(plume_scene_set_isosurfaces(scene_, 1, opaque, 0), "opacity");
   expect_refused(plume_settings_set_mode(settings_, static_cast<plume_mode>(9)), "number 9");
   expect_refused(plume_settings_set_order(settings_, 4), "order 4");
+  EXPECT_EQ(plume_settings_set_tolerance(settings_, 1.5), PLUME_OK);
+  expect_refused(plume_render(scene_, &camera_, settings_, 16, 16, rgba_.data()), "1.5");
   expect_refused(plume_settings_set_order(nullptr, 1),
                  "plume_settings_set_order: settings is NULL");
   expect_refused(plume_render(scene_, &camera_, nullptr, 0, 16, rgba_.data()), "0x16");

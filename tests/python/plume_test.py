@@ -1,4 +1,4 @@
-"""The Python package: arrays that are not copied, pictures that are the library's, errors that help.
+"""The Python package: arrays not copied, pictures that are the library's, errors that help.
 
 Run with PYTHONPATH at the package that was built.
 """
@@ -166,6 +166,17 @@ class Pictures(unittest.TestCase):
         integral = scene.render((16, 16), camera=camera, mode="integral").channels["integral"]
         across = 0.1 + (np.arange(16) + 0.5) / 16 * 0.8
         np.testing.assert_allclose(integral, np.broadcast_to(across, (16, 16)), atol=1e-5)
+
+    def test_keep_to_a_tolerance(self):
+        points, hexahedra, _ = cube(3)
+        scene = plume.Scene(plume.Mesh(points, hexahedra), waves(points))
+        near = scene.render(SIZE, tolerance=1e-3)
+        reference = scene.render(SIZE, tolerance=0)
+        self.assertLess(np.abs(near.rgba - reference.rgba).max(), 1e-3)
+        self.assertLess(near.statistics["cells_visited"],
+                        reference.statistics["cells_visited"] + 1)
+        with self.assertRaisesRegex(plume.Error, "1.5"):
+            scene.render(SIZE, tolerance=1.5)
 
     def test_of_another_field_are_those_of_a_scene_made_anew(self):
         points, hexahedra, tetrahedra = cube(4)
