@@ -19,6 +19,7 @@ namespace plume::test {
 namespace {
 
 constexpr double kBound = 1e-5;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Where channel values differ most, packets against twin.
 double worst_difference(const Scene& scene, const Camera& camera, double early_termination = 0,
@@ -44,9 +45,11 @@ double worst_difference(const Scene& scene, const Camera& camera, double early_t
     EXPECT_EQ(packets.statistics.cells_visited, twin.statistics.cells_visited);
   }
   double worst = 0;
-  for (std::size_t i = 0; i < twin.image.rgba.size(); ++i)
-    worst =
-        std::max(worst, std::abs(static_cast<double>(packets.image.rgba[i]) - twin.image.rgba[i]));
+  for (std::size_t i = 0; i < twin.image.rgba.size(); ++i) {
+    const double off = std::abs(static_cast<double>(packets.image.rgba[i]) - twin.image.rgba[i]);
+    // What is not a number is no maximum of anything.
+    if (!(off <= worst)) worst = std::isnan(off) ? kInfinity : off;
+  }
   return worst;
 }
 
@@ -70,6 +73,11 @@ std::vector<std::pair<std::string, TransferFunction>> transfer_functions() {
          {4, {0, {1, 0, 0}}}}}},
       {"spike", {{{2, {0, {1, 1, 1}}}, {2.01f, {300, {1, 0.8f, 0}}}, {2.02f, {0, {1, 1, 1}}}}}},
       {"random", random},
+      {"opaque at once",
+       {{{0, {1e8f, {0.2f, 0.4f, 1}}},
+         {3, {1e8f, {1, 0.5f, 0}}},
+         {3.5f, {0.1f, {1, 1, 1}}},
+         {6, {1e8f, {0, 1, 0}}}}}},
       {"nearly opaque", {{{0, {1e4f, {0.2f, 0.4f, 1}}}, {6, {1e6f, {1, 0.5f, 0}}}}}},
       {"nearly transparent", {{{0, {1e-5f, {0.2f, 0.4f, 1}}}, {6, {1e-6f, {1, 0.5f, 0}}}}}},
   };
