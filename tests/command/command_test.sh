@@ -64,9 +64,12 @@ ok "the statistics hold what they should" json a.json \
 for mode in volume mip minip average integral optical-depth depth cells; do
   ok "mode $mode" "$plume" render body.vts --mode $mode -o $mode.png --size 40x30 --quiet
 done
-for integrator in closed-form table midpoint; do
+for integrator in closed-form table table2 midpoint reference; do
   ok "integrator $integrator" "$plume" render body.vts --integrator $integrator -o i.png --size 40x30 --quiet
 done
+ok "the plan says what a table costs" sh -c \
+  "'$plume' render body.vts --integrator table -o i.png --size 40x30 --verbose |
+   grep -q 'table: 8.4 MB, built in .* ms, error .* at most and .* RMS'"
 for order in 1 2 3; do
   ok "order $order" "$plume" render mixed.vtu --order $order -o o$order.png --size 40x30 --stats o.json --quiet
   ok "order $order is in the statistics" json o.json "j['order']==$order"
