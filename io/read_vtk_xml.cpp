@@ -7,6 +7,7 @@
 #include <vtkXMLPRectilinearGridReader.h>
 #include <vtkXMLPStructuredGridReader.h>
 #include <vtkXMLPUnstructuredGridReader.h>
+#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLRectilinearGridReader.h>
 #include <vtkXMLStructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -21,6 +22,7 @@ namespace {
 
 vtkSmartPointer<vtkXMLReader> xml_reader_for(const std::string& extension) {
   if (extension == ".vtu") return vtkSmartPointer<vtkXMLUnstructuredGridReader>::New();
+  if (extension == ".vtp") return vtkSmartPointer<vtkXMLPolyDataReader>::New();
   if (extension == ".vts") return vtkSmartPointer<vtkXMLStructuredGridReader>::New();
   if (extension == ".vti") return vtkSmartPointer<vtkXMLImageDataReader>::New();
   if (extension == ".vtr") return vtkSmartPointer<vtkXMLRectilinearGridReader>::New();

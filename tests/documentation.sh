@@ -4,7 +4,8 @@
 #   documentation.sh SOURCE BUILD PAGE
 #
 # `./dev test` is not run again: it is what runs this. Blocks that name $PLUME_DATASETS are skipped,
-# loudly, where there is no such directory.
+# loudly, where there is no such directory, and blocks that turn an option PLUME_WITH_... on where the
+# build has it off: it is not for a test to change its licence.
 set -euo pipefail
 source_dir=$1 build_dir=$2 page=$3
 work=$(mktemp -d)
@@ -20,6 +21,15 @@ ran=0
 for block in $(ls block* | sort -V); do
   if grep -q PLUME_DATASETS "$block" && [ ! -d "$PLUME_DATASETS" ]; then
     echo "SKIPPED: no directory $PLUME_DATASETS (set PLUME_DATASETS) for:"
+    cat "$block"
+    continue
+  fi
+  missing=""
+  for option in $(grep -o 'PLUME_WITH_[A-Z]*' "$block" | sort -u); do
+    grep -q "^$option:BOOL=ON" build/CMakeCache.txt || missing+=" $option"
+  done
+  if [ -n "$missing" ]; then
+    echo "SKIPPED: the build is without$missing for:"
     cat "$block"
     continue
   fi

@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   plume::command::add_render(app);
   plume::command::add_info(app);
   plume::command::add_generate(app);
+  plume::command::add_tetrahedralize(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {  // --help, --version

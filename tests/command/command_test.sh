@@ -248,5 +248,99 @@ cp err.txt said.txt
 ok "it is said" grep -q "NaN" said.txt
 ok "and counted" json n.json "j['values_not_finite']==1 and j['lost_rays']==0"
 
+# Points and surfaces become tetrahedra, where the build has the engines.
+printf 'x,y,z,T\n0,0,0,1\n1,0,0,2\n0,1,0,3\n0,0,1,4\n' >four.csv
+"$plume" tetrahedralize four.csv -o four.vtu --engine tetgen >out.txt 2>err.txt && tetgen=1 || tetgen=0
+"$plume" tetrahedralize four.csv -o four.vtu --engine cgal >out.txt 2>err.txt && cgal=1 || cgal=0
+rm -f four.vtu
+cloud() { # name, expression of (i, random) for x, y, z
+  python3 -c "
+import math, random
+random.seed(3)
+r = random.random
+print('x,y,z,T')
+for i in range(3000):
+  x, y, z = $2
+  print('%r,%r,%r,%r' % (x, y, z, math.sin(3 * x) + y * z))" >"$1.csv"
+}
+cloud uniform "r(), r(), r()"
+cloud sphere "(lambda a, z: (math.cos(a) * math.sqrt(1 - z * z), math.sin(a) * math.sqrt(1 - z * z), z))(6.2831853 * r(), 2 * r() - 1)"
+cloud lattice "i % 15, i // 15 % 15, i // 225"
+cloud clustered "(lambda s: (i % 5 + s * r(), s * r(), s * r()))(math.exp(-12 * r()))"
+if [ $tetgen = 1 ]; then engines="tetgen"; else
+  echo "SKIPPED: the build has no TetGen (PLUME_WITH_TETGEN)"
+  engines=""
+  refused "a build without TetGen" 1 "four.csv|no TetGen|-DPLUME_WITH_TETGEN=ON|libtet1.5-dev" \
+    "$plume" tetrahedralize four.csv -o x.vtu --engine tetgen
+fi
+if [ $cgal = 1 ]; then engines="$engines cgal"; else
+  echo "SKIPPED: the build has no CGAL (PLUME_WITH_CGAL)"
+  refused "a build without CGAL" 1 "four.csv|no CGAL|-DPLUME_WITH_CGAL=ON|libcgal-dev" \
+    "$plume" tetrahedralize four.csv -o x.vtu --engine cgal
+fi
+for engine in $engines; do
+  for name in uniform sphere lattice clustered; do
+    ok "$name points by $engine" "$plume" tetrahedralize $name.csv -o cloud.vtu --engine $engine --quiet
+    ok "$name points by $engine are seen" "$plume" render cloud.vtu -o g.png --size 160x120 --stats g.json --quiet
+    ok "no ray is lost in $name points by $engine" json g.json "j['rays_hit']>0 and j['lost_rays']==0 and j['cells']>3000 and j['field']=='T' and not any('inside out' in f or 'zero volume' in f for f in j['findings'])"
+  done
+done
+if [ -n "$engines" ]; then
+  ok "points are rendered on the way" "$plume" render uniform.csv -o g.png --size 20x20 --stats g.json
+  cp err.txt said.txt
+  ok "which is said" grep -q "uniform.csv: 3000 points became [0-9]* tetrahedra (by " said.txt
+  ok "with their values" json g.json "j['field']=='T' and j['lost_rays']==0 and j['points']==3000"
+  ok "and told of" sh -c "'$plume' info four.csv --json > info.json"
+  ok "as tetrahedra" json info.json "j['cells_by_type']=={'tetrahedron':1} and any('4 points became 1 tetrahedra' in p for p in j['problems'])"
+  printf '0 0 0 1\n1 0 0 2\n0 1 0 3\n1 1 0 4\n2 1 0 5\n' >flat.xyz
+  refused "points in a plane" 1 "flat.xyz|all 5 points are in the plane|point 4 (2, 1, 0)" "$plume" render flat.xyz -o x.png
+  refused "points on a line" 1 "line.csv|on the line|point 4" sh -c "printf '0,0,0\n1,1,1\n2,2,2\n3,3,3\n4,4,4\n' >../line.csv; '$plume' render ../line.csv -o x.png; s=\$?; rm ../line.csv; exit \$s"
+  refused "three points" 1 "3 points|point 2 (0, 1, 0)|four" sh -c "printf '0,0,0\n1,0,0\n0,1,0\n' >../three.csv; '$plume' info ../three.csv; s=\$?; rm ../three.csv; exit \$s"
+fi
+printf 'x,y,z,T\n0,0,0,1\n1,nan,0,2\n' >nan.csv
+refused "a coordinate that is no number" 1 "nan.csv|line 3|column 2 (y)|nan" "$plume" render nan.csv -o x.png
+printf 'x,y,z,T\n0,0,0,hot\n' >hot.csv
+refused "a value that is none" 1 "hot.csv|line 2|column 4 (T)|'hot'" "$plume" tetrahedralize hot.csv -o x.vtu
+refused "the output of tetrahedra is checked first" 1 "nowhere" "$plume" tetrahedralize gone.csv -o nowhere/x.vtu
+refused "an unknown engine" 2 "--engine|qhull" "$plume" tetrahedralize four.csv -o x.vtu --engine qhull
+refused "quality of points" 1 "four.csv|surfaces" "$plume" tetrahedralize four.csv -o x.vtu --quality 2
+refused "tetrahedra of tetrahedra" 1 "box.vtu|volume cells already" "$plume" tetrahedralize box.vtu -o x.vtu
+
+# A box, as triangles with corners of their own; without some of them; and two that cross.
+stl() { # name, skipped triangles, offsets of boxes...
+  python3 - "$@" <<'PYTHON'
+import sys
+name, skipped, offsets = sys.argv[1], int(sys.argv[2]), map(float, sys.argv[3:])
+faces = [(0,2,1),(1,2,3),(4,5,6),(5,7,6),(0,1,4),(1,5,4),(2,6,3),(3,6,7),(0,4,2),(2,4,6),(1,3,5),(3,7,5)]
+with open(name, 'w') as f:
+    f.write('solid box\n')
+    for o in offsets:
+        for face in faces[skipped:]:
+            f.write('facet normal 0 0 0\nouter loop\n')
+            for c in face:
+                f.write('vertex %g %g %g\n' % tuple(o + (c >> a & 1) for a in range(3)))
+            f.write('endloop\nendfacet\n')
+    f.write('endsolid box\n')
+PYTHON
+}
+stl box.stl 0 0
+stl open.stl 1 0
+stl cross.stl 0 0 0.5
+if [ $tetgen = 1 ]; then
+  ok "a surface is filled" "$plume" tetrahedralize box.stl -o filled.vtu --quality 2,10 --max-volume 0.001
+  cp err.txt said.txt
+  ok "which is said" grep -q "box.stl: 12 triangles became [0-9]* tetrahedra (by TetGen)" said.txt
+  ok "and told of" sh -c "'$plume' info filled.vtu --json > info.json"
+  ok "as tetrahedra of a box" json info.json "j['cells']>1000 and j['components']==1 and j['problems']==[] and j['bounds']['high']==[1,1,1]"
+  refused "an open surface" 1 "open.stl|not closed|3 edges|(0, 0, 0)" "$plume" tetrahedralize open.stl -o x.vtu
+  refused "a surface that intersects itself" 1 "cross.stl|intersects itself|triangle|(1, 1, 1)" "$plume" tetrahedralize cross.stl -o x.vtu
+  refused "CGAL for a surface" 1 "box.stl|--engine cgal|TetGen" "$plume" tetrahedralize box.stl -o x.vtu --engine cgal
+  refused "a ratio out of range" 1 "box.stl|0.5|1 to 1000" "$plume" tetrahedralize box.stl -o x.vtu --quality 0.5
+  ok "a surface's points alone" "$plume" tetrahedralize box.stl -o points.vtu --points --quiet
+else
+  refused "a surface without TetGen" 1 "box.stl|no TetGen|-DPLUME_WITH_TETGEN=ON" "$plume" tetrahedralize box.stl -o x.vtu
+fi
+refused "a surface to render" 1 "box.stl|12 triangles|plume tetrahedralize" "$plume" render box.stl -o x.png
+
 echo "$passed passed, $failed failed"
 [ $failed -eq 0 ]

@@ -1,0 +1,25 @@
+// Formats of surfaces, by VTK's readers.
+#include <vtkDataObject.h>
+#include <vtkOBJReader.h>
+#include <vtkSTLReader.h>
+
+#include "plume/io/read_formats.h"
+#include "plume/io/vtk_run_reader.h"
+
+namespace plume {
+
+vtkSmartPointer<vtkDataObject> read_stl(const std::filesystem::path& file,
+                                        const ReadOptions& options, const Notice& notice) {
+  const auto reader = vtkSmartPointer<vtkSTLReader>::New();
+  reader->SetFileName(file.string().c_str());
+  return run_reader(*reader, file, options, notice);
+}
+
+vtkSmartPointer<vtkDataObject> read_obj(const std::filesystem::path& file,
+                                        const ReadOptions& options, const Notice& notice) {
+  const auto reader = vtkSmartPointer<vtkOBJReader>::New();
+  reader->SetFileName(file.string().c_str());
+  return run_reader(*reader, file, options, notice);
+}
+
+}  // namespace plume
