@@ -86,6 +86,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   result.statistics.seconds_planning = (tbb::tick_count::now() - start).seconds();
   result.statistics.order = effective.order;
   Frame frame(scene, camera, effective);
+  frame.set_opaque(find_opaque_pixels(frame));
   std::vector<std::string>& plan = result.statistics.plan;
   plan = describe_plan(scene, effective);
   plan.insert(plan.begin(), reasons.begin(), reasons.end());
@@ -113,6 +114,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
                      : walked_in_packets(frame)      ? packet_tiles(frame, integrator, pieces)
                                                      : volume_tiles(frame, integrator);
   result.cancelled = make_tiles(frame, *maker, progress, result.statistics);
+  frame.put_surfaces();
   result.statistics.values = frame.shade_raw();
   result.statistics.rays = frame.pixel_count();
   result.image = std::move(frame.image());

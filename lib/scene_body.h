@@ -1,12 +1,15 @@
 /// What is inside of a Scene: for scene.cpp and render.cpp.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <variant>
+#include <vector>
 
 #include "plume/lib/gradient_field.h"
 #include "plume/lib/scene.h"
+#include "plume/traverse/opaque_triangles.h"
 #include "plume/traverse/trace.h"
 #include "plume/traverse/trace_rectilinear.h"
 
@@ -25,6 +28,13 @@ struct Walkable {
   Walkable& operator=(const Walkable&) = delete;
 };
 
+/// An opaque surface, ready to be met.
+struct SceneSurface {
+  OpaqueTriangles index;
+  std::array<float, 3> color;
+  std::vector<std::array<float, 3>> point_colors, point_normals;
+};
+
 struct Scene::Body {
   std::variant<std::unique_ptr<Walkable<TetWalker>>, std::unique_ptr<Walkable<GridWalker>>,
                std::unique_ptr<Walkable<CellWalker>>, std::unique_ptr<Walkable<RectilinearWalker>>>
@@ -38,6 +48,7 @@ struct Scene::Body {
   TransferFunction transfer_function;
   Classification classification;
   std::optional<GradientField> gradients;
+  std::vector<SceneSurface> surfaces;
 };
 
 }  // namespace plume
