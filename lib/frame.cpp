@@ -1,6 +1,7 @@
 #include "plume/lib/frame.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "plume/lib/render_modes.h"
@@ -57,6 +58,24 @@ std::optional<std::size_t> Frame::wanted(const std::string& name) {
   const auto& list = settings_.channels;
   if (std::find(list.begin(), list.end(), name) == list.end()) return std::nullopt;
   return channel_place(name);
+}
+
+void Frame::put_surfaces() {
+  const bool by_depth = settings_.mode == Mode::depth;
+  for (std::size_t i = 0; i < pixel_count(); ++i) {
+    if (!opaque_.has_color(i)) continue;
+    float* rgba = &image_.rgba[4 * i];
+    const auto distance = static_cast<float>(opaque_.limits[i]);
+    if (settings_.mode == Mode::volume) {
+      for (std::size_t c = 0; c < 3; ++c) rgba[c] += (1 - rgba[3]) * opaque_.colors[i][c];
+      rgba[3] = 1;
+    } else if (by_depth && rgba[3] == 0) {
+      image_.channels[*raw_].values[i] = distance;
+      rgba[3] = 1;
+    }
+    if (channels_.depth && std::isinf(image_.channels[*channels_.depth].values[i]))
+      image_.channels[*channels_.depth].values[i] = distance;
+  }
 }
 
 void Frame::shade_raw(RenderStatistics& statistics) {

@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plume/lib/camera.h"
+#include "plume/lib/opaque_pixels.h"
 #include "plume/lib/render.h"
 #include "plume/preint/optical_depth.h"
 
@@ -71,10 +73,22 @@ class Frame {
   int tiles_across() const { return (window_.width + kTile - 1) / kTile; }
   int tiles_down() const { return (window_.height + kTile - 1) / kTile; }
 
-  /// The ray through the middle of a pixel.
+  /// The ray through the middle of a pixel, as far as it sees.
   Ray ray(const PixelPlace& pixel) const {
-    return rays_(window_.x + pixel.x + 0.5, window_.y + pixel.y + 0.5);
+    Ray ray = rays_(window_.x + pixel.x + 0.5, window_.y + pixel.y + 0.5);
+    if (opaque_.any()) ray.t_max = opaque_.limits[pixel.index];
+    return ray;
   }
+  /// Where the pixel is in arrays of the whole picture, of which the image may be a window.
+  std::size_t index_in_picture(const PixelPlace& pixel) const {
+    return static_cast<std::size_t>(window_.y + pixel.y) *
+               static_cast<std::size_t>(settings_.width) +
+           static_cast<std::size_t>(window_.x + pixel.x);
+  }
+  /// Ends rays at what is opaque.
+  void set_opaque(OpaquePixels opaque) { opaque_ = std::move(opaque); }
+  /// Puts the surfaces behind what rays saw in front of them, once all pixels are made.
+  void put_surfaces();
   float* rgba(const PixelPlace& pixel) { return &image_.rgba[4 * pixel.index]; }
   void put(const std::optional<std::size_t>& channel, const PixelPlace& pixel, double value) {
     if (channel) image_.channels[*channel].values[pixel.index] = static_cast<float>(value);
@@ -117,6 +131,7 @@ class Frame {
   OpticalDepth optical_depth_;
   double tolerance_;
   Image image_;
+  OpaquePixels opaque_;
   ChannelPlaces channels_;
   std::optional<std::size_t> raw_;
 };

@@ -35,6 +35,7 @@ RenderSettings Pilot::small(RenderSettings settings) const {
   settings.width = width_;
   settings.height = height_;
   settings.window.reset();
+  settings.depth_limit.clear();  // of the picture's pixels
   settings.channels.clear();
   return settings;
 }

@@ -86,6 +86,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   result.statistics.seconds_planning = (tbb::tick_count::now() - start).seconds();
   result.statistics.order = effective.order;
   Frame frame(scene, camera, effective);
+  frame.set_opaque(find_opaque_pixels(frame));
   std::vector<std::string>& plan = result.statistics.plan;
   // Where segments are linear, or cut into linear parts, the closed form is all there is to it.
   const bool unbent = is_linear(scene, effective) || is_classified(scene, effective);
@@ -119,6 +120,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
                      : walked_in_packets(frame)      ? packet_tiles(frame, integrator, pieces)
                                                      : volume_tiles(frame, integrator);
   result.cancelled = make_tiles(frame, *maker, progress, result.statistics);
+  frame.put_surfaces();
   frame.shade_raw(result.statistics);
   result.statistics.rays = frame.pixel_count();
   result.image = std::move(frame.image());

@@ -84,6 +84,10 @@ struct RenderSettings {
   std::optional<Lighting> lighting;
   /// Of the mesh, only what all of these keep is seen, in every mode. A box is planes_of_box().
   std::vector<ClipPlane> clip_planes;
+  /// Rays end at these distances (in world units along rays of length one, as the channel "depth"
+  /// has them): what a host program has drawn hides what is behind it. One for each pixel of the
+  /// picture, infinite where nothing is, or none. With the scene's surfaces, the nearer counts.
+  std::vector<float> depth_limit;
   /// The polynomial that the scalar is taken for inside of cells that are not tetrahedra; see
   /// traverse/inner_scalar.h. Maxima and integrals are those of the polynomial. Above `linear`, the
   /// whole of a cell with a NaN value is transparent; a linear segment is where one of the two

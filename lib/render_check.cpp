@@ -73,6 +73,11 @@ void check_settings(const Scene& scene, const RenderSettings& settings) {
       !(settings.tolerance->max_error >= 0 && settings.tolerance->max_error < 1))
     throw Error(fmt::format("a tolerance of {}: it must be at least 0 (the reference) and below 1",
                             settings.tolerance->max_error));
+  const auto pixels =
+      static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
+  if (!settings.depth_limit.empty() && settings.depth_limit.size() != pixels)
+    throw Error(fmt::format("depth_limit has {} values for {} pixels: give one for each, or none",
+                            settings.depth_limit.size(), pixels));
   if (settings.window) check_window(*settings.window, settings);
   check_channels(scene, settings);
   if (settings.lighting)

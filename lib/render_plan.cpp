@@ -96,6 +96,10 @@ std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings&
                                                     : describe_order(settings.order)));
   if (!settings.clip_planes.empty())
     plan.push_back(fmt::format("clip planes: {}, where rays are cut", settings.clip_planes.size()));
+  if (scene.surface_triangle_count() > 0)
+    plan.push_back(
+        fmt::format("opaque surfaces: {} triangles; rays end there, and are walked one by one",
+                    scene.surface_triangle_count()));
   if (settings.mode != Mode::volume) {
     plan.push_back(is_classified(scene, settings) ? "first hit of an isosurface or interval"
                                                   : in_words(settings.mode).cost);

@@ -264,6 +264,31 @@ std::size_t Scene::bytes() const {
 
 bool Scene::has_gradients() const { return body_->gradients.has_value(); }
 
+void Scene::add_surface(OpaqueSurface surface) {
+  if (const auto problem = surface.problem()) throw Error(*problem);
+  if (surface.triangles.empty()) return;
+  body_->surfaces.push_back({OpaqueTriangles(surface.points, surface.triangles), surface.color,
+                             std::move(surface.point_colors), std::move(surface.point_normals)});
+}
+
+void Scene::remove_surfaces() { body_->surfaces.clear(); }
+
+std::size_t Scene::surface_triangle_count() const {
+  std::size_t count = 0;
+  for (const SceneSurface& surface : body_->surfaces) count += surface.index.triangles().size();
+  return count;
+}
+
+Bounds Scene::visible_bounds() const {
+  Bounds bounds = body_->bounds;
+  for (const SceneSurface& surface : body_->surfaces)
+    for (std::size_t a = 0; a < 3; ++a) {
+      bounds.low[a] = std::min(bounds.low[a], surface.index.bounds().low[a]);
+      bounds.high[a] = std::max(bounds.high[a], surface.index.bounds().high[a]);
+    }
+  return bounds;
+}
+
 TraceResult Scene::trace(const Ray& ray, const std::function<bool(const Segment&)>& visit,
                          const ScalarRequest& request) const {
   return std::visit(

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "plume/lib/color_map.h"
+#include "plume/lib/opaque_surface.h"
 #include "plume/mesh/findings.h"
 #include "plume/mesh/local_frame.h"
 #include "plume/mesh/mesh.h"
@@ -46,8 +47,8 @@ struct SceneOptions {
   std::optional<std::array<double, 2>> color_range{};
 };
 
-/// Immutable but for the classification and, where the options say so, the field; safe to render
-/// from several threads.
+/// Immutable but for the classification, opaque surfaces and, where the options say so, the field;
+/// safe to render from several threads.
 class Scene {
  public:
   /// Checks the mesh, makes it walkable (in parallel) and chooses a transfer function that shows
@@ -115,6 +116,15 @@ class Scene {
   /// Sets the volume of the classification and leaves its intervals and isosurfaces. Throws Error
   /// where the transfer function has a problem (see TransferFunction::problem).
   void set_transfer_function(TransferFunction transfer_function);
+
+  /// Adds an opaque thing to the scene: in front of the mesh, inside of it or behind it, it hides
+  /// what is behind it, correct within each cell. It is seen in the modes volume and depth; in the
+  /// others it ends rays. Throws Error where it has a problem (see OpaqueSurface::problem).
+  void add_surface(OpaqueSurface surface);
+  void remove_surfaces();
+  std::size_t surface_triangle_count() const;
+  /// Of the mesh and of the surfaces: what a camera should see.
+  Bounds visible_bounds() const;
 
   /// Follows a ray and calls `visit` for each segment, front to back, until that returns false.
   /// `Segment::cell` is a number of the user's mesh where keep_cell_numbers was set or the mesh is

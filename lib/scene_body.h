@@ -1,6 +1,7 @@
 /// What is inside of a Scene: for scene.cpp and render.cpp.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "plume/lib/gradient_field.h"
 #include "plume/lib/scene.h"
 #include "plume/preint/integrator_cache.h"
+#include "plume/traverse/opaque_triangles.h"
 #include "plume/traverse/trace.h"
 #include "plume/traverse/trace_rectilinear.h"
 
@@ -26,6 +28,13 @@ struct Walkable {
       : mesh(std::move(walkable_mesh)), boundary(mesh) {}
   Walkable(const Walkable&) = delete;
   Walkable& operator=(const Walkable&) = delete;
+};
+
+/// An opaque surface, ready to be met.
+struct SceneSurface {
+  OpaqueTriangles index;
+  std::array<float, 3> color;
+  std::vector<std::array<float, 3>> point_colors, point_normals;
 };
 
 struct Scene::Body {
@@ -48,6 +57,7 @@ struct Scene::Body {
   Classification classification;
   std::optional<GradientField> gradients;
   mutable IntegratorCache integrators;  // a frame without a new transfer function builds no table
+  std::vector<SceneSurface> surfaces;
 };
 
 }  // namespace plume
