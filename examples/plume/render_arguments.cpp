@@ -95,6 +95,16 @@ void add_render_options(CLI::App& command, RenderArguments& args) {
       ->allow_extra_args(false);
   command.add_option("--clip-box", args.clip_box,
                      "Keep what is inside of a box: X0,Y0,Z0,X1,Y1,Z1");
+  command
+      .add_option("--surface", args.surfaces,
+                  "An opaque surface in the scene: FILE[:R,G,B], .stl .ply .obj .vtp ... "
+                  "(repeatable)")
+      ->allow_extra_args(false);
+  command
+      .add_option("--wall", args.walls,
+                  "A side of the grid as an opaque surface: imin imax jmin jmax kmin kmax, and "
+                  ":R,G,B where wanted (repeatable)")
+      ->allow_extra_args(false);
   command.add_flag("--no-volume", args.no_volume, "Isosurfaces and intervals alone");
   command
       .add_option("--interval-form", args.interval_form,

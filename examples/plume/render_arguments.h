@@ -17,7 +17,7 @@ struct RenderArguments {
   std::string view = "iso", camera, transfer_function, transfer_range, mode = "volume";
   std::string integrator, order, cell_data = "constant", background = "white", stats;
   std::string interval_form = "exponential";
-  std::vector<std::string> channels, isosurfaces, intervals, lights, clip_planes;
+  std::vector<std::string> channels, isosurfaces, intervals, lights, clip_planes, surfaces, walls;
   std::string material, clip_box, time, gray_range;
   double azimuth = 0, elevation = 0, zoom = 1, opacity_scale = 1, view_angle = 0;
   double unit_distance = 0;

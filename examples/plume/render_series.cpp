@@ -147,7 +147,7 @@ class SeriesRenderer {
   }
 
   void choose_camera_once() {
-    const Bounds& bounds = scene_.scene().bounds();
+    const Bounds bounds = scene_.scene().visible_bounds();
     if (!camera_) {
       const double aspect_ratio = static_cast<double>(settings_.width) / settings_.height;
       camera_ = choose_camera(bounds, args_, aspect_ratio);

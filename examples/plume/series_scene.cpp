@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "opaque_options.h"
 #include "plume/mesh/same_mesh.h"
 #include "render_choices.h"
 
@@ -51,6 +52,15 @@ void SeriesScene::show_first(const Mesh& mesh, const TimeSeries& series) {
   values_ = {field.low, field.high};
   choose_transfer_function(*scene_, args_, console_);
   choose_classification(*scene_, args_, console_);
+  for (const std::string& text : args_.surfaces)
+    surfaces_.push_back(
+        read_opaque_surface(text, [this](const std::string& line) { console_.say(line); }));
+  add_surfaces(mesh);
+}
+
+void SeriesScene::add_surfaces(const Mesh& mesh) {
+  for (const OpaqueSurface& surface : surfaces_) scene_->add_surface(surface);
+  for (const std::string& text : args_.walls) scene_->add_surface(parse_wall(text, mesh));
 }
 
 void SeriesScene::show(Mesh mesh, const TimeSeries& series) {
@@ -66,6 +76,7 @@ void SeriesScene::show(Mesh mesh, const TimeSeries& series) {
     scene_.emplace(mesh, options_);
     scene_->set_transfer_function(std::move(transfer_function));
     scene_->set_classification(std::move(classification));
+    add_surfaces(mesh);
     mesh_stayed_ = false;
   }
   values_ = {std::min(values_[0], scene_->field().low), std::max(values_[1], scene_->field().high)};

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "console.h"
 #include "plume/io/time_series.h"
@@ -39,6 +40,7 @@ class SeriesScene {
 
  private:
   void show_first(const Mesh& mesh, const TimeSeries& series);
+  void add_surfaces(const Mesh& mesh);
 
   const RenderArguments& args_;
   const Console& console_;
@@ -49,6 +51,7 @@ class SeriesScene {
   bool mesh_stayed_ = false;
   std::array<float, 2> values_{};
   std::string fitted_to_;
+  std::vector<OpaqueSurface> surfaces_;  // of files
 };
 
 }  // namespace plume::command
