@@ -13,8 +13,9 @@ namespace plume {
 
 /// Triangles that hide what is behind them. World coordinates; seen from both sides.
 struct OpaqueSurface {
-  std::vector<std::array<double, 3>> points;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<double, 3>> points;  ///< x, y, z of each
+  std::vector<std::array<std::uint32_t, 3>>
+      triangles;  ///< numbers of the points, in any sense of rotation
   /// Linear RGB (Rec. 709 primaries), >= 0, of all of it...
   std::array<float, 3> color{0.6f, 0.6f, 0.6f};
   /// ...or of each point, interpolated over triangles; empty, or one for each.

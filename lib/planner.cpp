@@ -56,7 +56,8 @@ bool has_optics(Mode mode) {
 
 // Chooses the order, and how closely its segments are followed.
 void choose_order(const Scene& scene, const Camera& camera, RenderSettings& settings,
-                  double max_error, double allowed, std::vector<std::string>& reasons) {
+                  double max_error, double allowed, bool choose_integrator,
+                  std::vector<std::string>& reasons) {
   const RenderSettings reference = reference_settings(settings, max_error);
   Pilot pilot(scene, camera, reference);
   const double safety = safety_of(settings.mode);
@@ -85,7 +86,9 @@ void choose_order(const Scene& scene, const Camera& camera, RenderSettings& sett
   }
   settings.order = reference.order;
   settings.scalar_tolerance = reference.scalar_tolerance;
-  reasons.push_back("order of the scalar: the reference's, as nothing cheaper will do" + tried);
+  if (choose_integrator) settings.integrator = reference.integrator;
+  reasons.push_back(
+      "order of the scalar and integrator: the reference's, as nothing cheaper will do" + tried);
 }
 
 }  // namespace
@@ -95,7 +98,7 @@ RenderSettings reference_settings(RenderSettings settings, double max_error) {
   settings.order = ScalarOrder::adaptive;
   settings.scalar_tolerance = std::clamp(1e-3 * max_error, 1e-6, 1e-5);
   settings.integrator = {};
-  if (max_error == 0) settings.integrator.kind = IntegratorKind::reference;
+  settings.integrator.kind = IntegratorKind::reference;
   settings.early_termination = 0;
   settings.scalar_twin = true;
   return settings;
@@ -142,7 +145,8 @@ RenderSettings plan_for(const Scene& scene, const Camera& camera, const RenderSe
         fmt::format("early termination: at a transmittance of {:.2g}, a bound of {:.1g}",
                     plan.early_termination, share));
   }
-  if (look_for_order) choose_order(scene, camera, plan, max_error, left, reasons);
+  if (look_for_order)
+    choose_order(scene, camera, plan, max_error, left, asked.choose_integrator, reasons);
   return plan;
 }
 

@@ -16,8 +16,7 @@
 ///   docs/evidence.md say how it fares.
 ///
 /// The reference is order `adaptive` at a thousandth of the tolerance, 1e-6 to 1e-5 of the field's
-/// range, by whole rays; for a tolerance of 0 integrated by adaptive quadrature, else in closed form.
-/// Where no candidate will do, it is the plan.
+/// range, by whole rays and adaptive quadrature. Where no candidate will do, it is the plan.
 #pragma once
 
 #include <string>

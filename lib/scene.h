@@ -121,7 +121,9 @@ class Scene {
   /// what is behind it, correct within each cell. It is seen in the modes volume and depth; in the
   /// others it ends rays. Throws Error where it has a problem (see OpaqueSurface::problem).
   void add_surface(OpaqueSurface surface);
+  /// Takes all of them out again.
   void remove_surfaces();
+  /// Of all surfaces.
   std::size_t surface_triangle_count() const;
   /// Of the mesh and of the surfaces: what a camera should see.
   Bounds visible_bounds() const;

@@ -28,17 +28,19 @@ struct PointSet {
   Array points;
   /// Fields of points only.
   std::vector<Field> fields;
-  std::string active_field;
+  std::string active_field;  ///< the field to show; empty: the first
 
+  /// Of x, y, z.
   std::size_t point_count() const { return points.size() / 3; }
 };
 
 /// Triangles between points. They need not be oriented.
 struct TriangleSurface {
-  PointSet vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  PointSet vertices;                                    ///< with their fields
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< numbers of the vertices
 };
 
+/// What tetrahedralize() makes.
 struct Tetrahedralization {
   /// Tetrahedra of positive volume by VTK's order of points.
   Mesh mesh;

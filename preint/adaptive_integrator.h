@@ -22,29 +22,35 @@ namespace plume {
 /// segment; alpha and optical depth the latter alone; then rounding to floats.
 class AdaptiveIntegrator {
  public:
-  static constexpr double default_tolerance = 1e-9;
-  static constexpr int highest_degree = 3;
+  static constexpr double default_tolerance = 1e-9;  ///< see tolerance()
+  static constexpr int highest_degree = 3;           ///< of the polynomials that integrate() takes
 
   /// Requires !transfer_function.problem() and a tolerance of 1e-13 to 1. Keeps a copy.
   explicit AdaptiveIntegrator(const TransferFunction& transfer_function,
                               double tolerance = default_tolerance);
 
+  /// As SegmentIntegrator has it.
   SegmentColor integrate(float s_in, float s_out, float length) const {
     return integrate(ScalarPolynomial::linear(s_in, s_out), length);
   }
+  /// Likewise.
   float optical_depth(float s_in, float s_out, float length) const {
     return optical_depth(ScalarPolynomial::linear(s_in, s_out), length);
   }
 
+  /// Of a segment along which the scalar is a polynomial.
   SegmentColor integrate(const ScalarPolynomial& scalar, float length) const {
     return integrate_precisely(scalar, length).rounded();
   }
+  /// Likewise.
   float optical_depth(const ScalarPolynomial& scalar, float length) const;
 
   /// Before rounding to floats.
   PreciseColor integrate_precisely(const ScalarPolynomial& scalar, double length) const;
 
+  /// Of colours, in shares of the largest of the transfer function.
   double tolerance() const { return tolerance_; }
+  /// The transfer function between its knots.
   const Pieces& pieces() const { return pieces_; }
 
  private:

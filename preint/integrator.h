@@ -31,6 +31,7 @@ struct IntegratorSettings {
   /// alone.
   double tolerance = AdaptiveIntegrator::default_tolerance;
 
+  /// The same in every number.
   bool operator==(const IntegratorSettings&) const = default;
 
   /// What is wrong with what the kind reads, in one line with the value; nothing where all is well.

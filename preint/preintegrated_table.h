@@ -33,6 +33,7 @@ struct TableSettings {
   /// one's (Engel, Kraus and Ertl 2001), which is right only for its opacity.
   std::optional<float> constant_length{};
 
+  /// The same in every number.
   bool operator==(const TableSettings&) const = default;
 
   /// What is wrong, in one line with the value; nothing where all is well.
@@ -87,6 +88,7 @@ class PreintegratedTable {
 
   /// Memory, time to build, measured error.
   const TableReport& report() const { return report_; }
+  /// Of the entries.
   std::size_t bytes() const { return report_.bytes; }
 
   /// Shortest and longest length that the table covers; {0, 0} where there is no table.
@@ -95,7 +97,9 @@ class PreintegratedTable {
   /// Both axes of scalars, that of log2(length), and the entries, [(length * back count + back) *
   /// front count + front]: for who reads the table in another way. Empty where there is no table.
   const TableAxis& scalar_axis() const { return scalars_; }
+  /// Of the logarithms of lengths.
   const TableAxis& length_axis() const { return lengths_; }
+  /// Front scalars first, then back scalars, then lengths.
   const std::vector<TableEntry>& entries() const { return entries_; }
 
  private:

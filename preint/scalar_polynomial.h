@@ -24,6 +24,7 @@ class ScalarPolynomial {
   /// Through values at 0, 1/3, 2/3 and 1.
   static ScalarPolynomial cubic(float first, float third, float two_thirds, float last);
 
+  /// The value at a share u of the way.
   double operator()(double u) const {
     return coefficient_[0] + u * (coefficient_[1] + u * (coefficient_[2] + u * coefficient_[3]));
   }
@@ -40,11 +41,14 @@ class ScalarPolynomial {
   /// The places in ascending order where the derivative changes sign, strictly between 0 and 1: at
   /// most two.
   struct Extrema {
-    std::array<double, 2> places{};
-    std::size_t size = 0;
+    std::array<double, 2> places{};  ///< ascending
+    std::size_t size = 0;            ///< how many there are
+    /// The first.
     const double* begin() const { return places.data(); }
+    /// Beyond the last.
     const double* end() const { return places.data() + size; }
   };
+  /// See Extrema.
   const Extrema& extrema() const { return extrema_; }
 
   /// The greatest value on [0, 1]. NaN is passed over; NaN where both ends are.

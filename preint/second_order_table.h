@@ -16,6 +16,7 @@
 
 namespace plume {
 
+/// What SecondOrderTable is made of.
 struct SecondOrderTableSettings {
   /// Entries along each of the three axes of scalars; >= 2.
   int scalar_count = 40;
@@ -23,10 +24,12 @@ struct SecondOrderTableSettings {
   int length_count = 24;
   /// As in TableSettings.
   std::optional<std::array<float, 2>> scalar_range{};
-  std::optional<std::array<float, 2>> length_range{};
+  std::optional<std::array<float, 2>>
+      length_range{};  ///< lengths covered, world units; by default as for TableSettings
   /// The 3D form, of segments that are all that long, in world units; as in TableSettings.
   std::optional<float> constant_length{};
 
+  /// The same in every number.
   bool operator==(const SecondOrderTableSettings&) const = default;
 
   /// What is wrong, in one line with the value; nothing where all is well.
@@ -51,7 +54,7 @@ struct SecondOrderTableSettings {
 /// not reach (see PreintegratedTable), to AdaptiveIntegrator. Cubics: see highest_degree.
 class SecondOrderTable {
  public:
-  static constexpr int highest_degree = 2;
+  static constexpr int highest_degree = 2;  ///< of the polynomials that integrate() takes
 
   /// Requires !transfer_function.problem() and !settings.problem(). Runs on all threads that TBB
   /// has.
@@ -62,6 +65,7 @@ class SecondOrderTable {
   SegmentColor integrate(float s_in, float s_out, float length) const {
     return closed_form_.integrate(s_in, s_out, length);
   }
+  /// As SegmentIntegrator has it; not from the table.
   float optical_depth(float s_in, float s_out, float length) const {
     return closed_form_.optical_depth(s_in, s_out, length);
   }

@@ -12,13 +12,14 @@ namespace plume {
 
 /// Entries at even distances from `low` to `high`.
 struct TableAxis {
-  double low = 0;
-  double high = 0;
-  std::size_t count = 1;
+  double low = 0;         ///< where the first entry is
+  double high = 0;        ///< where the last is
+  std::size_t count = 1;  ///< of entries
   /// Entries per unit; 0 where there is only one entry.
   double density = 0;
 
   TableAxis() = default;
+  /// From the first entry to the last.
   TableAxis(double from, double to, std::size_t entries)
       : low(from),
         high(to),
@@ -34,9 +35,10 @@ struct TableAxis {
   /// The entry below a value and the weight of the next one; at the ends, the ends. Where there is
   /// one entry, it is that one alone.
   struct Place {
-    std::size_t first;
-    float weight;
+    std::size_t first;  ///< the entry below
+    float weight;       ///< of the entry above, 0 to 1
   };
+  /// Of a value; beyond the ends, at the nearer end.
   Place place(double value) const {
     const double position = std::max(0.0, (value - low) * density);
     const std::size_t last = count > 1 ? count - 2 : 0;
@@ -50,7 +52,7 @@ struct TableAxis {
 
 /// What a table costs and how far it is from what it tabulates.
 struct TableReport {
-  std::size_t bytes = 0;
+  std::size_t bytes = 0;     ///< of the entries
   double build_seconds = 0;  ///< on the wall
   /// Of a colour channel or alpha, over 4096 segments spread evenly over the table (the scalars and
   /// the logarithm of the length). No bound: what lies between them may be worse.

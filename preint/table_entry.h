@@ -14,8 +14,9 @@ namespace plume {
 /// / alpha, the colour weighted by it. Both stay finite and smooth from the shortest to the longest
 /// segment, and entries without extinction lend no colour to their neighbours.
 struct alignas(16) TableEntry {
-  std::array<float, 4> values{0, 0, 0, 0};
+  std::array<float, 4> values{0, 0, 0, 0};  ///< q for red, green, blue; then m
 
+  /// Of a segment with that mean extinction.
   static TableEntry of(const PreciseColor& color, double mean_extinction) {
     if (!(color.alpha > 0)) return {{0, 0, 0, saturated_float(mean_extinction)}};
     const double scale = mean_extinction / color.alpha;
@@ -23,6 +24,7 @@ struct alignas(16) TableEntry {
              saturated_float(color.rgb[2] * scale), saturated_float(mean_extinction)}};
   }
 
+  /// Adds a share of another: what interpolation sums up.
   void add(const TableEntry& other, float weight) {
     for (std::size_t i = 0; i < 4; ++i) values[i] += weight * other.values[i];
   }

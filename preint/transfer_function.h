@@ -16,6 +16,7 @@ struct Optics {
   /// source term of the volume rendering integral is color * extinction.
   std::array<float, 3> color{0, 0, 0};
 
+  /// The same in every number.
   bool operator==(const Optics&) const = default;
 };
 
@@ -25,13 +26,15 @@ struct Optics {
 struct TransferFunction {
   /// Optics at a scalar.
   struct Knot {
-    float scalar = 0;
-    Optics optics;
+    float scalar = 0;  ///< in the field's unit
+    Optics optics;     ///< there
 
+    /// The same in every number.
     bool operator==(const Knot&) const = default;
   };
   std::vector<Knot> knots;  ///< ascending; see problem()
 
+  /// The same in every number.
   bool operator==(const TransferFunction&) const = default;
 
   /// What is wrong with the knots, in one line that names the knot; nothing where all is well: at

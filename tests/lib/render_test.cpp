@@ -298,6 +298,7 @@ TEST(Render, NamesTheSettingThatIsWrong) {
   settings.early_termination = 1;
   EXPECT_NE(error_of(settings, camera).find("early termination at 1"), std::string::npos);
   settings = {};
+  settings.integrator.kind = IntegratorKind::midpoint;
   settings.integrator.samples = 0;
   EXPECT_NE(error_of(settings, camera).find("0 samples"), std::string::npos);
 }
