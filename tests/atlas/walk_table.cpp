@@ -131,9 +131,11 @@ std::string full_table(const std::vector<WalkRow>& rows) {
 std::vector<std::string> problems_of(const std::vector<WalkRow>& rows) {
   std::vector<std::string> problems;
   std::map<std::string, std::uint64_t> old_failures, our_rays;
+  Tally of_others;
   for (const WalkRow& row : rows) {
     if (!row.ours) {
       old_failures[row.method] += row.tally.failed;
+      of_others.add(row.tally);
       continue;
     }
     our_rays[row.method] += row.tally.rays;
@@ -149,6 +151,9 @@ std::vector<std::string> problems_of(const std::vector<WalkRow>& rows) {
   for (const auto& [method, failures] : old_failures)
     if (failures == 0)
       problems.push_back(method + " fails nowhere: the scenes are too easy to tell methods apart");
+  const Tally& t = of_others;
+  if (t.lost == 0 || t.looping == 0 || t.gaps == 0 || t.overlaps == 0 || t.wrong_cells == 0)
+    problems.push_back("a column that is zero for everyone shows nothing: " + counts(t, true));
   return problems;
 }
 
