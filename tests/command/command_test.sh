@@ -68,7 +68,7 @@ for integrator in closed-form table table2 midpoint reference; do
   ok "integrator $integrator" "$plume" render body.vts --integrator $integrator -o i.png --size 40x30 --quiet
 done
 ok "the plan says what a table costs" sh -c \
-  "'$plume' render body.vts --integrator table -o i.png --size 40x30 --verbose |
+  "'$plume' render body.vts --integrator table -o i.png --size 40x30 --verbose 2>&1 |
    grep -q 'table: 8.4 MB, built in .* ms, error .* at most and .* RMS'"
 for order in 1 2 3; do
   ok "order $order" "$plume" render mixed.vtu --order $order -o o$order.png --size 40x30 --stats o.json --quiet
@@ -86,6 +86,14 @@ refused "a tolerance that is none" 2 "tolerance" "$plume" render mixed.vtu --tol
 ok "an EXR with channels" "$plume" render mixed.vtu -o a.exr --size 40x30 --quiet \
   --channels depth,optical_depth,cell_id,cell_count
 ok "a view that begins with a minus" "$plume" render box.vtu --view -x -o v.png --size 20x20 --quiet
+printf 'solid plate\nfacet normal 0 0 1\nouter loop\nvertex -1 -1 0.5\nvertex 2 -1 0.5\nvertex 0.5 3 0.5\nendloop\nendfacet\nendsolid plate\n' >plate.stl
+ok "an opaque surface" "$plume" render box.vtu --surface plate.stl:0.8,0.2,0.1 -o s.png --size 40x30 --stats s.json --quiet
+ok "it is in the plan" json s.json "any('opaque surfaces: 1 triangles' in line for line in j['plan']) and j['lost_rays']==0"
+ok "a side of a grid" "$plume" render body.vts --wall kmin --wall jmax:1,0,0 -o s.png --size 40x30 --quiet
+refused "a side of no grid" 1 "--wall 'kmin'|no curvilinear or rectilinear grid|--surface" "$plume" render box.vtu --wall kmin -o x.png --quiet
+refused "a side that no grid has" 1 "--wall 'top'|imin|kmax" "$plume" render body.vts --wall top -o x.png --quiet
+refused "a surface's colour that is none" 1 "--surface 'plate.stl:2,0,0'|0 to 1" "$plume" render box.vtu --surface plate.stl:2,0,0 -o x.png --quiet
+refused "a surface that is not there" 1 "none.stl" "$plume" render box.vtu --surface none.stl -o x.png --quiet
 ok "a component" "$plume" render body.vts --field velocity:0 -o f.png --size 20x20 --stats f.json --quiet
 ok "the component is named" json f.json "j['field']=='velocity:0'"
 ok "a magnitude" "$plume" render body.vts --field velocity:magnitude -o f.png --size 20x20 --stats f.json --quiet
