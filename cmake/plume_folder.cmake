@@ -16,7 +16,8 @@ file(CREATE_LINK ${CMAKE_SOURCE_DIR} ${CMAKE_BINARY_DIR}/include/plume SYMBOLIC)
 
 # Flags that every target of ours shares.
 function(plume_flags target)
-  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_BINARY_DIR}/include>)
+  target_include_directories(${target} PUBLIC $<BUILD_INTERFACE:${CMAKE_BINARY_DIR}/include>
+                                              $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wpedantic)
   # A product that is fused in one place and not in another would let two
   # places decide differently about the same edge (docs/architecture.md).
@@ -26,14 +27,20 @@ function(plume_flags target)
   endif()
 endfunction()
 
-# plume_folder(mesh SOURCES a.cpp b.cpp LINK other libraries)
+# plume_folder(mesh SOURCES a.cpp b.cpp LINK other libraries COMPONENT core HEADERS a.h)
+#
+# A folder with a COMPONENT is installed as part of it (install.cmake), with these of its headers:
+# what a host program includes, and what that includes.
 function(plume_folder name)
-  cmake_parse_arguments(ARG "" "" "SOURCES;LINK;LINK_PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "" "COMPONENT" "SOURCES;LINK;LINK_PRIVATE;HEADERS" ${ARGN})
   add_library(plume_${name} STATIC ${ARG_SOURCES})
   add_library(plume::${name} ALIAS plume_${name})
   set_target_properties(plume_${name} PROPERTIES POSITION_INDEPENDENT_CODE ON)
   plume_flags(plume_${name})
   target_link_libraries(plume_${name} PUBLIC ${ARG_LINK} PRIVATE ${ARG_LINK_PRIVATE})
+  if(ARG_COMPONENT)
+    plume_install(${name} ${ARG_COMPONENT} "${ARG_HEADERS}")
+  endif()
 endfunction()
 
 # Sources that are compiled for each instruction set: with sanitizers one takes a quarter of an hour,

@@ -86,4 +86,13 @@ Mesh two_blocks(const GenerateOptions& options);
 /// with two eye sockets towards -y, its crown towards +z.
 Mesh nested_shell(const GenerateOptions& options);
 
+/// Vortices shed from both sides of a cylinder of diameter 1 around the z axis, in a stream of
+/// speed 1 along x: a curvilinear grid of the wake, from the cylinder's rear (and the plane x = 0
+/// beside it) to x = 14, for y from -4 to 4 and z from 0 to 6. max(4, `size`) cells along x
+/// (default 72), 2/3 as many along y, half as many along z: 124,416. The flow is that at `time`,
+/// and again after vortex_street_period. Point fields `vorticity` (about z, active) and `velocity`
+/// (3 components).
+Mesh vortex_street(const GenerateOptions& options);
+inline constexpr double vortex_street_period = 5;
+
 }  // namespace plume::datasets

@@ -24,8 +24,22 @@ const std::vector<Generator>& generators() {
       {"two-blocks", "two blocks of hexahedra that meet with duplicated points",
        datasets::two_blocks},
       {"nested-shell", "head of nested shells, tetrahedra", datasets::nested_shell},
+      {"vortex-street", "wake of a cylinder, curvilinear; changes in time", datasets::vortex_street,
+       datasets::vortex_street_period},
   };
   return all;
+}
+
+const Generator& generator_named(const std::string& name) {
+  const auto& all = generators();
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const Generator& g) { return g.name == name; });
+  if (found == all.end()) {
+    std::string names;
+    for (const Generator& g : all) names += (names.empty() ? "" : ", ") + g.name;
+    throw Error("generate: no mesh is called '" + name + "'; choose one of " + names);
+  }
+  return *found;
 }
 
 Mesh generate(const std::string& name, const GenerateOptions& options) {
@@ -37,15 +51,9 @@ Mesh generate(const std::string& name, const GenerateOptions& options) {
     throw Error("generate: jitter " + std::to_string(options.jitter) +
                 " is no displacement; give a number of cell edges, at least 0");
   }
-  const auto& all = generators();
-  const auto found =
-      std::find_if(all.begin(), all.end(), [&](const Generator& g) { return g.name == name; });
-  if (found == all.end()) {
-    std::string names;
-    for (const Generator& g : all) names += (names.empty() ? "" : ", ") + g.name;
-    throw Error("generate: no mesh is called '" + name + "'; choose one of " + names);
-  }
-  return found->make(options);
+  if (!std::isfinite(options.time))
+    throw Error("generate: time " + std::to_string(options.time) + " is none; give a number");
+  return generator_named(name).make(options);
 }
 
 }  // namespace plume

@@ -10,6 +10,7 @@
 
 namespace plume {
 
+/// What a file holds besides the pixels, and how it holds these.
 struct ImageFileOptions {
   /// PNG: bits per channel, 8 or 16.
   int png_bits = 8;

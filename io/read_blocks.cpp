@@ -54,6 +54,7 @@ BlockCells cells_of(const Mesh& block) {
   if (block.is_grid()) return cells_of_grid(block);
   BlockCells cells;
   const std::size_t count = block.cell_count();
+  if (count == 0) return cells;  // points alone
   const auto type_of = [&](std::size_t cell) {
     return block.cells.types.at<std::uint8_t>(block.cells.types.size() == 1 ? 0 : cell);
   };

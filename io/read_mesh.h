@@ -8,9 +8,11 @@
 #include <vector>
 
 #include "plume/mesh/mesh.h"
+#include "plume/mesh/tetrahedralize.h"
 
 namespace plume {
 
+/// What a file's name does not say.
 struct ReadOptions {
   /// Plot3D: the q file that belongs to the grid.
   std::filesystem::path solution{};
@@ -19,6 +21,8 @@ struct ReadOptions {
   /// Which time step of a file that holds several (.pvd, Exodus, EnSight, OpenFOAM, CGNS); the last
   /// by default. 0 is the first.
   std::optional<int> time_step{};
+  /// What makes tetrahedra of points without cells.
+  TetrahedralizationEngine engine = TetrahedralizationEngine::automatic;
 };
 
 /// Something the user should know though it is no error: "12 triangles dropped: not volume cells".
@@ -30,7 +34,11 @@ using Notice = std::function<void(const std::string&)>;
 /// Formats, by extension: .vtu .pvtu .vtk .vts .pvts .vti .pvti .vtr .pvtr .vtm .pvd, Plot3D (.xyz
 /// .x .g .p3d .bin .fmt .grid, binary or text, either byte order, one block or several), Exodus II
 /// (.e .ex2 .exo .exii .g where it is no Plot3D), EnSight Gold (.case), OpenFOAM (.foam, or a case
-/// directory), CGNS (.cgns), Fluent (.cas, .msh).
+/// directory), CGNS (.cgns), Fluent (.cas, .msh); points without cells: .csv, .xyz, .ply, .vtp.
+///
+/// Points without cells (VTK's files may hold them, too: data sets whose cells are vertices, or
+/// that have fields and no cells) become tetrahedra (tetrahedralize.h), and a notice says so.
+/// Closed surfaces do not: see read_surface.h.
 ///
 /// One block of a structured grid stays a grid (`Mesh::dimensions`), one of a rectilinear grid or
 /// an image a rectilinear one (`Mesh::axes`) unless the image is turned; several blocks, and

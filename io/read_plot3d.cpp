@@ -6,6 +6,8 @@
 #include <vtkStructuredGrid.h>
 
 #include <array>
+#include <string>
+#include <utility>
 
 #include "plume/io/plot3d_layout.h"
 #include "plume/io/read_formats.h"
@@ -53,10 +55,38 @@ void leave_out_what_needs_energy(vtkMultiBlockDataSet& blocks,
            names);
 }
 
+// VTK's reader, and doubts about what it reads.
+class Plot3dReader : public StepReader {
+ public:
+  Plot3dReader(OpenedFile vtk, std::filesystem::path file, std::filesystem::path solution,
+               std::size_t block_count)
+      : StepReader({}),
+        vtk_(std::move(vtk)),
+        file_(std::move(file)),
+        solution_(std::move(solution)),
+        block_count_(block_count) {}
+
+  vtkSmartPointer<vtkDataObject> read(std::size_t, const Notice& notice) override {
+    auto data = vtk_->read(vtk_->step_count() - 1, notice);
+    auto* const blocks = vtkMultiBlockDataSet::SafeDownCast(data);
+    if (!blocks || blocks->GetNumberOfBlocks() != block_count_)
+      throw Error(file_.string() + ": VTK reads other than its " + std::to_string(block_count_) +
+                  " blocks; check that the file is whole");
+    if (!solution_.empty() && energy_is_zero(*blocks))
+      leave_out_what_needs_energy(*blocks, solution_, notice);
+    return data;
+  }
+
+ private:
+  OpenedFile vtk_;
+  std::filesystem::path file_, solution_;
+  std::size_t block_count_;
+};
+
 }  // namespace
 
-vtkSmartPointer<vtkDataObject> read_plot3d(const std::filesystem::path& file,
-                                           const ReadOptions& options, const Notice& notice) {
+OpenedFile open_plot3d(const std::filesystem::path& file, const ReadOptions& options,
+                       const Notice& notice) {
   const Plot3dLayout layout = plot3d_grid_layout(file);
   const auto reader = vtkSmartPointer<vtkMultiBlockPLOT3DReader>::New();
   reader->SetXYZFileName(file.string().c_str());
@@ -77,14 +107,8 @@ vtkSmartPointer<vtkDataObject> read_plot3d(const std::filesystem::path& file,
     for (const int function : derived_functions) reader->AddFunction(function);
     reader->SetScalarFunctionNumber(100);
   }
-  auto data = run_reader(*reader, file, options, notice);
-  auto* const blocks = vtkMultiBlockDataSet::SafeDownCast(data);
-  if (!blocks || blocks->GetNumberOfBlocks() != layout.blocks.size())
-    throw Error(file.string() + ": VTK reads other than its " +
-                std::to_string(layout.blocks.size()) + " blocks; check that the file is whole");
-  if (!options.solution.empty() && energy_is_zero(*blocks))
-    leave_out_what_needs_energy(*blocks, options.solution, notice);
-  return data;
+  return std::make_unique<Plot3dReader>(open_reader(reader, file, notice), file, options.solution,
+                                        layout.blocks.size());
 }
 
 }  // namespace plume

@@ -1,10 +1,8 @@
 // The formats of simulation codes and of their preprocessors.
 #include <vtkCGNSReader.h>
-#include <vtkDataObject.h>
 #include <vtkExodusIIReader.h>
 #include <vtkFLUENTReader.h>
 #include <vtkGenericEnSightReader.h>
-#include <vtkMultiBlockDataSet.h>
 #include <vtkOpenFOAMReader.h>
 
 #include <string>
@@ -20,8 +18,8 @@
 
 namespace plume {
 
-vtkSmartPointer<vtkDataObject> read_exodus(const std::filesystem::path& file,
-                                           const ReadOptions& options, const Notice& notice) {
+OpenedFile open_exodus(const std::filesystem::path& file, const ReadOptions&,
+                       const Notice& notice) {
   const std::string start = first_bytes(file, 8);
   if (!looks_like_netcdf(start) && !looks_like_hdf5(start))
     throw Error(file.string() +
@@ -33,23 +31,23 @@ vtkSmartPointer<vtkDataObject> read_exodus(const std::filesystem::path& file,
   reader->GenerateObjectIdCellArrayOff();
   reader->GenerateGlobalElementIdArrayOff();
   reader->GenerateGlobalNodeIdArrayOff();
-  return run_reader(*reader, file, options, notice, [&] {
+  return open_reader(reader, file, notice, [&] {
     // Results are off by default.
     reader->SetAllArrayStatus(vtkExodusIIReader::NODAL, 1);
     reader->SetAllArrayStatus(vtkExodusIIReader::ELEM_BLOCK, 1);
   });
 }
 
-vtkSmartPointer<vtkDataObject> read_ensight(const std::filesystem::path& file,
-                                            const ReadOptions& options, const Notice& notice) {
+OpenedFile open_ensight(const std::filesystem::path& file, const ReadOptions&,
+                        const Notice& notice) {
   check_ensight_case(file);
   const auto reader = vtkSmartPointer<vtkGenericEnSightReader>::New();
   reader->SetCaseFileName(file.string().c_str());
-  return run_reader(*reader, file, options, notice);
+  return open_reader(reader, file, notice);
 }
 
-vtkSmartPointer<vtkDataObject> read_openfoam(const std::filesystem::path& file,
-                                             const ReadOptions& options, const Notice& notice) {
+OpenedFile open_openfoam(const std::filesystem::path& file, const ReadOptions&,
+                         const Notice& notice) {
   const auto directory = std::filesystem::absolute(file).parent_path();
   if (!std::filesystem::exists(directory / "system" / "controlDict"))
     throw Error(file.string() + ": " + directory.string() +
@@ -63,7 +61,7 @@ vtkSmartPointer<vtkDataObject> read_openfoam(const std::filesystem::path& file,
   reader->DecomposePolyhedraOff();
   // Point data made of cell data would blur what the solver computed.
   reader->CreateCellToPointOff();
-  return run_reader(*reader, file, options, notice, [&] {
+  return open_reader(reader, file, notice, [&] {
     for (int i = 0; i < reader->GetNumberOfPatchArrays(); ++i) {
       const std::string name = reader->GetPatchArrayName(i);
       reader->SetPatchArrayStatus(name.c_str(), name.ends_with("internalMesh"));
@@ -71,8 +69,7 @@ vtkSmartPointer<vtkDataObject> read_openfoam(const std::filesystem::path& file,
   });
 }
 
-vtkSmartPointer<vtkDataObject> read_cgns(const std::filesystem::path& file,
-                                         const ReadOptions& options, const Notice& notice) {
+OpenedFile open_cgns(const std::filesystem::path& file, const ReadOptions&, const Notice& notice) {
   const std::string start = first_bytes(file, 64);
   if (!looks_like_hdf5(start) && start.find("ADF Database") == std::string::npos)
     throw Error(file.string() +
@@ -81,7 +78,7 @@ vtkSmartPointer<vtkDataObject> read_cgns(const std::filesystem::path& file,
   check_netcdf_or_hdf5_length(file);
   const auto reader = vtkSmartPointer<vtkCGNSReader>::New();
   reader->SetFileName(file.string().c_str());
-  return run_reader(*reader, file, options, notice, [&] {
+  return open_reader(reader, file, notice, [&] {
     reader->EnableAllBases();
     reader->EnableAllFamilies();
     reader->EnableAllPointArrays();
@@ -89,8 +86,8 @@ vtkSmartPointer<vtkDataObject> read_cgns(const std::filesystem::path& file,
   });
 }
 
-vtkSmartPointer<vtkDataObject> read_fluent(const std::filesystem::path& file,
-                                           const ReadOptions& options, const Notice& notice) {
+OpenedFile open_fluent(const std::filesystem::path& file, const ReadOptions&,
+                       const Notice& notice) {
   const std::string start = first_bytes(file, 64);
   if (start.starts_with("$MeshFormat"))
     throw Error(file.string() + ": a Gmsh mesh, not a Fluent one; convert it to .vtk with gmsh");
@@ -110,8 +107,8 @@ vtkSmartPointer<vtkDataObject> read_fluent(const std::filesystem::path& file,
   }
   const auto reader = vtkSmartPointer<vtkFLUENTReader>::New();
   reader->SetFileName(file.string().c_str());
-  return run_reader(
-      *reader, file, options, notice, [&] { reader->EnableAllCellArrays(); }, expected);
+  return open_reader(
+      reader, file, notice, [&] { reader->EnableAllCellArrays(); }, expected);
 }
 
 }  // namespace plume

@@ -1,5 +1,4 @@
 // VTK's own formats: the XML family and the legacy format.
-#include <vtkDataObject.h>
 #include <vtkGenericDataObjectReader.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLMultiBlockDataReader.h>
@@ -7,6 +6,7 @@
 #include <vtkXMLPRectilinearGridReader.h>
 #include <vtkXMLPStructuredGridReader.h>
 #include <vtkXMLPUnstructuredGridReader.h>
+#include <vtkXMLPolyDataReader.h>
 #include <vtkXMLRectilinearGridReader.h>
 #include <vtkXMLStructuredGridReader.h>
 #include <vtkXMLUnstructuredGridReader.h>
@@ -21,6 +21,7 @@ namespace {
 
 vtkSmartPointer<vtkXMLReader> xml_reader_for(const std::string& extension) {
   if (extension == ".vtu") return vtkSmartPointer<vtkXMLUnstructuredGridReader>::New();
+  if (extension == ".vtp") return vtkSmartPointer<vtkXMLPolyDataReader>::New();
   if (extension == ".vts") return vtkSmartPointer<vtkXMLStructuredGridReader>::New();
   if (extension == ".vti") return vtkSmartPointer<vtkXMLImageDataReader>::New();
   if (extension == ".vtr") return vtkSmartPointer<vtkXMLRectilinearGridReader>::New();
@@ -31,8 +32,7 @@ vtkSmartPointer<vtkXMLReader> xml_reader_for(const std::string& extension) {
   return vtkSmartPointer<vtkXMLMultiBlockDataReader>::New();
 }
 
-vtkSmartPointer<vtkDataObject> read_legacy(const std::filesystem::path& file,
-                                           const ReadOptions& options, const Notice& notice) {
+OpenedFile open_legacy(const std::filesystem::path& file, const Notice& notice) {
   if (!first_bytes(file, 32).starts_with("# vtk DataFile Version"))
     throw Error(file.string() +
                 ": not a legacy VTK file, which starts with '# vtk DataFile Version'; check that "
@@ -46,19 +46,19 @@ vtkSmartPointer<vtkDataObject> read_legacy(const std::filesystem::path& file,
   reader->ReadAllTensorsOn();
   reader->ReadAllTCoordsOn();
   reader->ReadAllFieldsOn();
-  return run_reader(*reader, file, options, notice);
+  return open_reader(reader, file, notice);
 }
 
 }  // namespace
 
-vtkSmartPointer<vtkDataObject> read_vtk_file(const std::filesystem::path& file,
-                                             const ReadOptions& options, const Notice& notice) {
+OpenedFile open_vtk_file(const std::filesystem::path& file, const ReadOptions&,
+                         const Notice& notice) {
   const std::string extension = lower_extension(file);
-  if (extension == ".vtk") return read_legacy(file, options, notice);
+  if (extension == ".vtk") return open_legacy(file, notice);
   check_vtk_xml_end(file);
   const auto reader = xml_reader_for(extension);
   reader->SetFileName(file.string().c_str());
-  return run_reader(*reader, file, options, notice);
+  return open_reader(reader, file, notice);
 }
 
 }  // namespace plume

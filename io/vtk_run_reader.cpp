@@ -5,51 +5,68 @@
 #include <vtkInformation.h>
 #include <vtkStreamingDemandDrivenPipeline.h>
 
-#include <algorithm>
-#include <string>
+#include <utility>
 
 #include "plume/io/vtk_errors.h"
 #include "plume/mesh/error.h"
 
 namespace plume {
+namespace {
 
-int choose_time_step(int count, const std::filesystem::path& file, const ReadOptions& options) {
-  const int last = std::max(count, 1) - 1;
-  const int step = options.time_step.value_or(last);
-  if (step < 0 || step > last)
-    throw Error(file.string() + ": there is no time step " + std::to_string(step) +
-                "; choose one from 0 to " + std::to_string(last));
-  return step;
+using Pipeline = vtkStreamingDemandDrivenPipeline;
+
+std::vector<double> times_of(vtkAlgorithm& reader) {
+  // VTK 9.1 says 0 of a legacy file with a TimeValue, whatever that is.
+  if (reader.IsA("vtkGenericDataObjectReader")) return {};
+  vtkInformation* const information = reader.GetOutputInformation(0);
+  if (!information || !information->Has(Pipeline::TIME_STEPS())) return {};
+  const double* const first = information->Get(Pipeline::TIME_STEPS());
+  return {first, first + information->Length(Pipeline::TIME_STEPS())};
 }
 
-vtkSmartPointer<vtkDataObject> run_reader(vtkAlgorithm& reader, const std::filesystem::path& file,
-                                          const ReadOptions& options, const Notice& notice,
-                                          const std::function<void()>& select,
-                                          const std::vector<std::string>& expected) {
-  // In two steps: readers that could not make sense of a file's header crash on its data.
+class VtkStepReader : public StepReader {
+ public:
+  VtkStepReader(vtkSmartPointer<vtkAlgorithm> reader, std::filesystem::path file,
+                std::vector<std::string> expected)
+      : StepReader(times_of(*reader)),
+        reader_(std::move(reader)),
+        file_(std::move(file)),
+        expected_(std::move(expected)) {}
+
+  vtkSmartPointer<vtkDataObject> read(std::size_t step, const Notice& notice) override {
+    vtkSmartPointer<vtkDataObject> output;
+    const auto update = [&] {
+      if (times().empty())
+        reader_->Update();
+      else
+        reader_->UpdateTimeStep(times()[step]);
+      output = reader_->GetOutputDataObject(0);
+    };
+    with_vtk_errors(file_, notice, check_the_file, update, expected_);
+    if (!output)
+      throw Error(file_.string() + ": VTK reads nothing from it; check the file's format");
+    return output;
+  }
+
+ private:
+  vtkSmartPointer<vtkAlgorithm> reader_;
+  std::filesystem::path file_;
+  std::vector<std::string> expected_;
+};
+
+}  // namespace
+
+std::unique_ptr<StepReader> open_reader(vtkSmartPointer<vtkAlgorithm> reader,
+                                        const std::filesystem::path& file, const Notice& notice,
+                                        const std::function<void()>& select,
+                                        std::vector<std::string> expected) {
+  // Apart from reading: readers that could not make sense of a file's header crash on its data.
   const auto update_information = [&] {
-    reader.UpdateInformation();
+    reader->UpdateInformation();
     if (select) select();
   };
   with_vtk_errors(file, notice, check_the_file, update_information, expected);
-
-  using Pipeline = vtkStreamingDemandDrivenPipeline;
-  vtkInformation* const information = reader.GetOutputInformation(0);
-  const bool has_time = information && information->Has(Pipeline::TIME_STEPS());
-  const int steps = has_time ? information->Length(Pipeline::TIME_STEPS()) : 0;
-  const int step = choose_time_step(steps, file, options);
-
-  vtkSmartPointer<vtkDataObject> output;
-  const auto update = [&] {
-    if (steps > 0)
-      reader.UpdateTimeStep(information->Get(Pipeline::TIME_STEPS())[step]);
-    else
-      reader.Update();
-    output = reader.GetOutputDataObject(0);
-  };
-  with_vtk_errors(file, notice, check_the_file, update, expected);
-  if (!output) throw Error(file.string() + ": VTK reads nothing from it; check the file's format");
-  return output;
+  return std::make_unique<VtkStepReader>(std::move(reader), file, std::move(expected));
 }
 
 }  // namespace plume

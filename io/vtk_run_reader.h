@@ -5,27 +5,24 @@
 
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "plume/io/read_mesh.h"
+#include "plume/io/step_reader.h"
 
 class vtkAlgorithm;
-class vtkDataObject;
 
 namespace plume {
 
-/// Updates the reader, whose file name is set, to the time step that the options ask for (the last
-/// by default). `select` is called once the reader knows what the file holds, to say what is wanted
-/// of it. Throws Error for what VTK reports, a time step that is not there, or no output; messages
-/// with one of the texts `expected` in them are dropped.
-vtkSmartPointer<vtkDataObject> run_reader(vtkAlgorithm& reader, const std::filesystem::path& file,
-                                          const ReadOptions& options, const Notice& notice,
-                                          const std::function<void()>& select = {},
-                                          const std::vector<std::string>& expected = {});
-
-/// Which of `count` time steps the options ask for, the last by default. Throws Error when there
-/// is no such step. `count` may be 0 for a file without time, which counts as one step.
-int choose_time_step(int count, const std::filesystem::path& file, const ReadOptions& options);
+/// Lets the reader, whose file name is set, find out what the file holds, and keeps it: what it has
+/// read once (a mesh that stays, say) it may give again. `select` is called once the reader knows
+/// what there is, to say what is wanted of it. Throws Error for what VTK reports, now or when a
+/// step is read; messages with one of the texts `expected` in them are dropped.
+std::unique_ptr<StepReader> open_reader(vtkSmartPointer<vtkAlgorithm> reader,
+                                        const std::filesystem::path& file, const Notice& notice,
+                                        const std::function<void()>& select = {},
+                                        std::vector<std::string> expected = {});
 
 }  // namespace plume

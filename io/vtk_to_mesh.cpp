@@ -1,7 +1,6 @@
 #include "plume/io/vtk_to_mesh.h"
 
-#include <vtkCompositeDataIterator.h>
-#include <vtkCompositeDataSet.h>
+#include <vtkCellType.h>
 #include <vtkImageData.h>
 #include <vtkMatrix3x3.h>
 #include <vtkPoints.h>
@@ -19,26 +18,15 @@
 #include <vector>
 
 #include "plume/io/read_blocks.h"
+#include "plume/io/read_surface.h"
 #include "plume/io/vtk_arrays.h"
 #include "plume/io/vtk_cells.h"
+#include "plume/io/vtk_data_sets.h"
+#include "plume/io/vtk_points.h"
 #include "plume/mesh/error.h"
 
 namespace plume {
 namespace {
-
-std::vector<vtkSmartPointer<vtkDataSet>> data_sets_in(vtkDataObject& data) {
-  std::vector<vtkSmartPointer<vtkDataSet>> found;
-  if (auto* const set = vtkDataSet::SafeDownCast(&data)) {
-    found.emplace_back(set);
-  } else if (auto* const composite = vtkCompositeDataSet::SafeDownCast(&data)) {
-    vtkSmartPointer<vtkCompositeDataIterator> leaf;
-    leaf.TakeReference(composite->NewIterator());
-    for (leaf->InitTraversal(); !leaf->IsDoneWithTraversal(); leaf->GoToNextItem())
-      if (auto* const part = vtkDataSet::SafeDownCast(leaf->GetCurrentDataObject()))
-        found.emplace_back(part);
-  }
-  return found;
-}
 
 // Coordinates of a grid's points: along its axes where that is enough, else of each point.
 struct Coordinates {
@@ -184,6 +172,27 @@ void report(const CellCensus& census, bool is_grid, const std::filesystem::path&
            " of the cells are of higher order: represented by their corners");
 }
 
+Mesh tetrahedra_of(const PointSet& points, const std::filesystem::path& file,
+                   const ReadOptions& options, const Notice& notice) {
+  try {
+    Tetrahedralization result = tetrahedralize(points, options.engine);
+    report_tetrahedra(result, file, std::to_string(points.point_count()) + " points", notice);
+    return std::move(result.mesh);
+  } catch (const Error& error) {
+    throw Error(file.string() + ": points without cells: " + error.what());
+  }
+}
+
+// For what a surface encloses there is a command.
+std::string remedy_for(const CellCensus& census) {
+  const bool surface =
+      std::any_of(census.dropped.begin(), census.dropped.end(), [](const auto& dropped) {
+        return dropped.first == VTK_TRIANGLE || dropped.first == VTK_TRIANGLE_STRIP ||
+               dropped.first == VTK_POLYGON || dropped.first == VTK_QUAD;
+      });
+  return surface ? "; 'plume tetrahedralize' fills closed surfaces" : "";
+}
+
 }  // namespace
 
 Mesh mesh_from_vtk(vtkDataObject& data, const std::filesystem::path& file,
@@ -194,12 +203,15 @@ Mesh mesh_from_vtk(vtkDataObject& data, const std::filesystem::path& file,
     if (part->GetNumberOfCells() > 0)
       if (auto block = block_from(*part, file, notice, census)) blocks.push_back(std::move(*block));
   if (blocks.empty()) {
+    if (const auto points = point_set_in(data, file, false, notice))
+      return tetrahedra_of(*points, file, options, notice);
     std::string found = census.dropped_cells();
     if (census.hidden > 0)
       found += (found.empty() ? "" : ", ") + std::to_string(census.hidden) + " hidden";
     throw Error(file.string() + ": no volume cells" +
                 (found.empty() ? ": it is empty" : ", only " + found) +
-                "; Plume needs tetrahedra, hexahedra, wedges, pyramids, prisms or polyhedra");
+                "; Plume needs tetrahedra, hexahedra, wedges, pyramids, prisms or polyhedra" +
+                remedy_for(census));
   }
   const bool one_block = blocks.size() == 1;
   report(census, one_block && blocks[0].is_grid(), file, notice);

@@ -10,10 +10,11 @@
 
 namespace plume {
 
+/// Position and lens, in world coordinates.
 struct Camera {
-  std::array<double, 3> position{0, 0, 1};
-  std::array<double, 3> focal_point{0, 0, 0};
-  std::array<double, 3> view_up{0, 1, 0};
+  std::array<double, 3> position{0, 0, 1};     ///< of the eye
+  std::array<double, 3> focal_point{0, 0, 0};  ///< what it looks at
+  std::array<double, 3> view_up{0, 1, 0};      ///< not along the line of sight
   /// Degrees from the bottom to the top of the picture, in (0, 180). Perspective only.
   double view_angle = 30;
   /// Parallel projection: all rays have the direction of the line of sight.
@@ -31,6 +32,7 @@ Camera fitted_camera(const Bounds& bounds, const std::array<double, 3>& directio
 /// A named view, fitted: "+x" looks along +x, as ParaView's button of that name; likewise -x, +y,
 /// -y, +z, -z; "iso" looks along (-1, -1, -1). Throws Error, listing the names, for another.
 Camera named_view(const std::string& name, const Bounds& bounds, double aspect_ratio = 1);
+/// What named_view() knows.
 std::vector<std::string> view_names();
 
 /// Turns the camera about the focal point, around view up (azimuth) and around the axis across the

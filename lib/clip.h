@@ -13,7 +13,7 @@ namespace plume {
 
 /// Keeps the side that the normal points to. World coordinates.
 struct ClipPlane {
-  std::array<double, 3> point{0, 0, 0};
+  std::array<double, 3> point{0, 0, 0};   ///< any of the plane
   std::array<double, 3> normal{0, 0, 1};  ///< of any length but zero
 };
 

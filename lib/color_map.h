@@ -16,18 +16,20 @@ namespace plume {
 struct ColorMap {
   /// How colours are interpolated between two points.
   enum class Space { rgb, hsv, lab, diverging, step };
+  /// A colour at a value.
   struct ColorPoint {
-    double x = 0;
+    double x = 0;                         ///< in the field's unit
     std::array<double, 3> srgb{0, 0, 0};  ///< 0 to 1
   };
+  /// An opacity at a value.
   struct OpacityPoint {
-    double x = 0;
+    double x = 0;           ///< in the field's unit
     double opacity = 0;     ///< 0 to 1, over one unit distance
     double midpoint = 0.5;  ///< 0 to 1, as vtkPiecewiseFunction
     double sharpness = 0;   ///< 0 (linear) to 1 (step), as vtkPiecewiseFunction
   };
-  std::string name;
-  Space space = Space::rgb;
+  std::string name;                     ///< as the editor calls it; may be empty
+  Space space = Space::rgb;             ///< in which colours are interpolated
   std::vector<ColorPoint> colors;       ///< ascending x
   std::vector<OpacityPoint> opacities;  ///< ascending x; empty: a ramp from 0 to 1 over the colours
 };

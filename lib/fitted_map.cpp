@@ -13,16 +13,22 @@ constexpr double kMostOpaque = 0.9;
 
 }  // namespace
 
-ColorMap fitted_color_map(std::span<const float> values) {
-  // A sample is enough for percentiles.
-  std::vector<float> sample;
+std::vector<float> sample_for_map(std::span<const float> values) {
   const std::size_t stride = std::max<std::size_t>(1, values.size() / 100000);
-  for (std::size_t i = 0; i < values.size(); i += stride)
-    if (!std::isnan(values[i])) sample.push_back(values[i]);
+  std::vector<float> sample;
+  sample.reserve(values.size() / stride + 1);
+  for (std::size_t i = 0; i < values.size(); i += stride) sample.push_back(values[i]);
+  return sample;
+}
+
+ColorMap fitted_color_map(std::span<const float> values,
+                          const std::optional<std::array<double, 2>>& range) {
+  std::vector<float> sample = sample_for_map(values);
+  std::erase_if(sample, [](float value) { return std::isnan(value); });
   std::sort(sample.begin(), sample.end());
 
   ColorMap map = *preset("turbo");
-  if (sample.empty() || sample.front() == sample.back()) {
+  if (sample.empty() || (sample.front() == sample.back() && !range)) {
     const double value = sample.empty() ? 0 : sample.front();
     const double margin = std::max(std::abs(value) * 1e-3, 1e-6);
     map = rescaled(std::move(map), value - margin, value + margin);
@@ -33,7 +39,8 @@ ColorMap fitted_color_map(std::span<const float> values) {
     return static_cast<double>(
         sample[static_cast<std::size_t>(share * static_cast<double>(sample.size() - 1))]);
   };
-  double low = percentile(0.01), high = percentile(0.99);
+  double low = range ? (*range)[0] : percentile(0.01);
+  double high = range ? (*range)[1] : percentile(0.99);
   if (!(low < high)) {
     low = sample.front();
     high = sample.back();

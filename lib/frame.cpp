@@ -1,6 +1,7 @@
 #include "plume/lib/frame.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "plume/lib/render_modes.h"
@@ -20,11 +21,13 @@ constexpr std::array<Frame::TilePixel, kTile* kTile> Frame::kTileOrder = [] {
 Frame::Frame(const Scene& scene, const Camera& camera, const RenderSettings& settings)
     : scene_(scene),
       settings_(settings),
+      window_(settings.window.value_or(PixelWindow{0, 0, settings.width, settings.height})),
       rays_(camera, settings.width, settings.height),
       optical_depth_(scene.transfer_function()),
-      tolerance_(1e-4 * (static_cast<double>(scene.field().high) - scene.field().low)) {
-  image_.width = settings.width;
-  image_.height = settings.height;
+      tolerance_(settings.scalar_tolerance *
+                 (static_cast<double>(scene.field().high) - scene.field().low)) {
+  image_.width = window_.width;
+  image_.height = window_.height;
   image_.rgba.assign(4 * pixel_count(), 0);
   // In the order in which they were asked for.
   for (const std::string& name : settings.channels) {
@@ -57,8 +60,26 @@ std::optional<std::size_t> Frame::wanted(const std::string& name) {
   return channel_place(name);
 }
 
-std::optional<std::array<float, 2>> Frame::shade_raw() {
-  if (!raw_) return std::nullopt;
+void Frame::put_surfaces() {
+  const bool by_depth = settings_.mode == Mode::depth;
+  for (std::size_t i = 0; i < pixel_count(); ++i) {
+    if (!opaque_.has_color(i)) continue;
+    float* rgba = &image_.rgba[4 * i];
+    const auto distance = static_cast<float>(opaque_.limits[i]);
+    if (settings_.mode == Mode::volume) {
+      for (std::size_t c = 0; c < 3; ++c) rgba[c] += (1 - rgba[3]) * opaque_.colors[i][c];
+      rgba[3] = 1;
+    } else if (by_depth && rgba[3] == 0) {
+      image_.channels[*raw_].values[i] = distance;
+      rgba[3] = 1;
+    }
+    if (channels_.depth && std::isinf(image_.channels[*channels_.depth].values[i]))
+      image_.channels[*channels_.depth].values[i] = distance;
+  }
+}
+
+void Frame::shade_raw(RenderStatistics& statistics) {
+  if (!raw_) return;
   const auto& values = image_.channels[*raw_].values;
   auto for_each_seen = [&](auto&& visit) {
     for (std::size_t i = 0; i < values.size(); ++i)
@@ -69,23 +90,27 @@ std::optional<std::array<float, 2>> Frame::shade_raw() {
     low = std::min(low, value);
     high = std::max(high, value);
   });
-  if (!(low <= high)) return std::nullopt;
-  const std::array<float, 2> range{low, high};
+  if (!(low <= high)) return;
+  statistics.values = {low, high};
   const ShadeBy by = in_words(settings_.mode).shade;
   if (by == ShadeBy::transfer_function) {
     for_each_seen([&](float value, float* rgba) {
       const Optics optics = scene_.transfer_function().at(value);
       std::copy(optics.color.begin(), optics.color.end(), rgba);
     });
-    return range;
+    return;
   }
   if (by == ShadeBy::gray_from_zero) low = std::min(low, 0.0f);
+  if (settings_.gray_range) {
+    low = (*settings_.gray_range)[0];
+    high = (*settings_.gray_range)[1];
+  }
+  if (low < high) statistics.gray_range = {low, high};
   for_each_seen([&](float value, float* rgba) {
-    float shade = high > low ? (value - low) / (high - low) : 1.0f;
+    float shade = high > low ? std::clamp((value - low) / (high - low), 0.0f, 1.0f) : 1.0f;
     if (by == ShadeBy::gray_near_is_white && high > low) shade = 1 - shade;
     std::fill_n(rgba, 3, shade);
   });
-  return range;
 }
 
 }  // namespace plume

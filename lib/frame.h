@@ -6,9 +6,11 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plume/lib/camera.h"
+#include "plume/lib/opaque_pixels.h"
 #include "plume/lib/render.h"
 #include "plume/preint/optical_depth.h"
 
@@ -21,7 +23,7 @@ struct Tile {
   int x = 0, y = 0;
 };
 
-/// A pixel, and where it is in the image's arrays.
+/// A pixel of the image, and where it is in its arrays.
 struct PixelPlace {
   int x, y;
   std::size_t index;
@@ -66,13 +68,27 @@ class Frame {
   double tolerance() const { return tolerance_; }
   Image& image() { return image_; }
   std::size_t pixel_count() const {
-    return static_cast<std::size_t>(settings_.width) * static_cast<std::size_t>(settings_.height);
+    return static_cast<std::size_t>(window_.width) * static_cast<std::size_t>(window_.height);
   }
-  int tiles_across() const { return (settings_.width + kTile - 1) / kTile; }
-  int tiles_down() const { return (settings_.height + kTile - 1) / kTile; }
+  int tiles_across() const { return (window_.width + kTile - 1) / kTile; }
+  int tiles_down() const { return (window_.height + kTile - 1) / kTile; }
 
-  /// The ray through the middle of a pixel.
-  Ray ray(const PixelPlace& pixel) const { return rays_(pixel.x + 0.5, pixel.y + 0.5); }
+  /// The ray through the middle of a pixel, as far as it sees.
+  Ray ray(const PixelPlace& pixel) const {
+    Ray ray = rays_(window_.x + pixel.x + 0.5, window_.y + pixel.y + 0.5);
+    if (opaque_.any()) ray.t_max = opaque_.limits[pixel.index];
+    return ray;
+  }
+  /// Where the pixel is in arrays of the whole picture, of which the image may be a window.
+  std::size_t index_in_picture(const PixelPlace& pixel) const {
+    return static_cast<std::size_t>(window_.y + pixel.y) *
+               static_cast<std::size_t>(settings_.width) +
+           static_cast<std::size_t>(window_.x + pixel.x);
+  }
+  /// Ends rays at what is opaque.
+  void set_opaque(OpaquePixels opaque) { opaque_ = std::move(opaque); }
+  /// Puts the surfaces behind what rays saw in front of them, once all pixels are made.
+  void put_surfaces();
   float* rgba(const PixelPlace& pixel) { return &image_.rgba[4 * pixel.index]; }
   void put(const std::optional<std::size_t>& channel, const PixelPlace& pixel, double value) {
     if (channel) image_.channels[*channel].values[pixel.index] = static_cast<float>(value);
@@ -82,8 +98,9 @@ class Frame {
     put(raw_, pixel, value);
     rgba(pixel)[3] = seen ? 1.0f : 0.0f;
   }
-  /// Colours the numbers of such a mode, once all pixels have one; says what they run from and to.
-  std::optional<std::array<float, 2>> shade_raw();
+  /// Colours the numbers of such a mode, once all pixels have one; says what they, and the shades
+  /// of gray, run from and to.
+  void shade_raw(RenderStatistics& statistics);
 
   /// Calls visit(PixelPlace) for a tile's pixels along a Z-curve: neighbours in the list, which
   /// share packets, are neighbours in the picture and meet the same cells.
@@ -91,9 +108,9 @@ class Frame {
   void for_each_pixel(const Tile& tile, Visit&& visit) const {
     for (const auto& [along, down] : kTileOrder) {
       const int x = tile.x + along, y = tile.y + down;
-      if (x >= settings_.width || y >= settings_.height) continue;
+      if (x >= window_.width || y >= window_.height) continue;
       visit(PixelPlace{x, y,
-                       static_cast<std::size_t>(y) * static_cast<std::size_t>(settings_.width) +
+                       static_cast<std::size_t>(y) * static_cast<std::size_t>(window_.width) +
                            static_cast<std::size_t>(x)});
     }
   }
@@ -109,10 +126,12 @@ class Frame {
 
   const Scene& scene_;
   const RenderSettings& settings_;
+  const PixelWindow window_;  // all of the picture, where none was asked for
   PixelRays rays_;
   OpticalDepth optical_depth_;
   double tolerance_;
   Image image_;
+  OpaquePixels opaque_;
   ChannelPlaces channels_;
   std::optional<std::size_t> raw_;
 };

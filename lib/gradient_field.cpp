@@ -7,7 +7,6 @@
 #include <optional>
 
 #include "plume/mesh/cell_shape.h"
-#include "plume/mesh/explicit_cells.h"
 #include "plume/traverse/inner_scalar.h"
 #include "plume/traverse/isoparametric.h"
 
@@ -37,31 +36,14 @@ std::vector<std::uint32_t> points_of(const WalkableCells& walkable, std::uint32_
   return ids;
 }
 
-// Puts values of the user's points in the order of the walkable ones, which has no map between the
-// two: cell by cell, points are the same whose coordinates are.
-template <class Walkable, class PointsOf>
-std::vector<float> reordered(const Walkable& walkable, const Mesh& mesh,
-                             const std::vector<float>& of_points, const PointsOf& points_of_cell) {
-  assert(walkable.original_cells.size() == walkable.cell_count());
-  const CellReader reader(mesh);
-  std::vector<float> values(3 * walkable.points.size(), kNaN);
-  std::vector<bool> found(walkable.points.size(), false);
-  std::vector<std::uint32_t> users;
-  for (std::uint32_t cell = 0; cell < walkable.cell_count(); ++cell) {
-    const auto ids = points_of_cell(cell);
-    if (std::all_of(ids.begin(), ids.end(), [&](auto id) { return found[id]; })) continue;
-    reader.points(walkable.original_cells[cell], users);
-    for (const std::uint32_t user : users) {
-      const auto p = point_at(mesh, user);
-      const WalkablePoint local = walkable.frame.local(p[0], p[1], p[2], 0);
-      for (const std::uint32_t id : ids) {
-        const WalkablePoint& candidate = walkable.points[id];
-        if (found[id] || !std::equal(local.position, local.position + 3, candidate.position))
-          continue;
-        std::copy_n(&of_points[3 * std::size_t{user}], 3, &values[3 * std::size_t{id}]);
-        found[id] = true;
-      }
-    }
+// Puts values of the user's points in the order of the walkable ones.
+template <class Walkable>
+std::vector<float> reordered(const Walkable& walkable, const std::vector<float>& of_points) {
+  assert(3 * walkable.point_numbers.size() == of_points.size());
+  std::vector<float> values(3 * walkable.points.size());
+  for (std::size_t user = 0; user < walkable.point_numbers.size(); ++user) {
+    const std::uint32_t number = walkable.point_numbers[user];
+    if (number != kNone) std::copy_n(&of_points[3 * user], 3, &values[3 * std::size_t{number}]);
   }
   return values;
 }
@@ -79,25 +61,37 @@ std::array<double, 8> trilinear_weights(const Vector& parameters) {
 
 }  // namespace
 
-GradientField::GradientField(const WalkableTets& walkable, const Mesh& mesh,
-                             std::vector<float> of_points) {
+GradientField::GradientField(const WalkableTets& walkable, std::vector<float> of_points)
+    : values_(reordered(walkable, of_points)) {
   for (std::size_t face = 0; face < walkable.boundary.size(); ++face)
     boundary_.emplace_back(walkable.boundary[face].cell, static_cast<std::uint32_t>(face));
   std::sort(boundary_.begin(), boundary_.end());
-  values_ = reordered(walkable, mesh, of_points,
-                      [&](std::uint32_t cell) { return points_of(walkable, cell); });
 }
 
-GradientField::GradientField(const WalkableCells& walkable, const Mesh& mesh,
-                             std::vector<float> of_points)
-    : values_(reordered(walkable, mesh, of_points,
-                        [&](std::uint32_t cell) { return plume::points_of(walkable, cell); })) {}
+GradientField::GradientField(const WalkableCells& walkable, std::vector<float> of_points)
+    : values_(reordered(walkable, of_points)) {}
 
-GradientField::GradientField(const WalkableGrid&, const Mesh&, std::vector<float> of_points)
+GradientField::GradientField(const WalkableGrid&, std::vector<float> of_points)
     : values_(std::move(of_points)) {}
 
-GradientField::GradientField(const WalkableRectilinear&, const Mesh&, std::vector<float> of_points)
+GradientField::GradientField(const WalkableRectilinear&, std::vector<float> of_points)
     : values_(std::move(of_points)) {}
+
+void GradientField::put(const WalkableTets& walkable, std::vector<float> of_points) {
+  values_ = reordered(walkable, of_points);
+}
+
+void GradientField::put(const WalkableCells& walkable, std::vector<float> of_points) {
+  values_ = reordered(walkable, of_points);
+}
+
+void GradientField::put(const WalkableGrid&, std::vector<float> of_points) {
+  values_ = std::move(of_points);
+}
+
+void GradientField::put(const WalkableRectilinear&, std::vector<float> of_points) {
+  values_ = std::move(of_points);
+}
 
 std::size_t GradientField::bytes() const {
   return values_.size() * sizeof(float) + boundary_.size() * sizeof(boundary_[0]);

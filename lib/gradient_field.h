@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "plume/mesh/mesh.h"
 #include "plume/mesh/walkable_cells.h"
 #include "plume/mesh/walkable_grid.h"
 #include "plume/mesh/walkable_rectilinear.h"
@@ -26,13 +25,18 @@ namespace plume {
 /// rectilinear grid, the trilinear weights of those. NaN where none has.
 class GradientField {
  public:
-  /// `of_points` as from point_gradients(mesh, ...). The walkable mesh must be made from `mesh`,
-  /// with its original cells kept.
-  GradientField(const WalkableTets& walkable, const Mesh& mesh, std::vector<float> of_points);
-  GradientField(const WalkableCells& walkable, const Mesh& mesh, std::vector<float> of_points);
-  GradientField(const WalkableGrid& walkable, const Mesh& mesh, std::vector<float> of_points);
-  GradientField(const WalkableRectilinear& walkable, const Mesh& mesh,
-                std::vector<float> of_points);
+  /// `of_points` as from point_gradients() of the mesh that the walkable one was made from; of
+  /// tetrahedra and cells, with point_numbers kept.
+  GradientField(const WalkableTets& walkable, std::vector<float> of_points);
+  GradientField(const WalkableCells& walkable, std::vector<float> of_points);
+  GradientField(const WalkableGrid& walkable, std::vector<float> of_points);
+  GradientField(const WalkableRectilinear& walkable, std::vector<float> of_points);
+
+  /// Replaces the gradients by those of another field of the same mesh.
+  void put(const WalkableTets& walkable, std::vector<float> of_points);
+  void put(const WalkableCells& walkable, std::vector<float> of_points);
+  void put(const WalkableGrid& walkable, std::vector<float> of_points);
+  void put(const WalkableRectilinear& walkable, std::vector<float> of_points);
 
   /// In units of the scalar per world length, at a place of that cell, in world coordinates.
   using Vector = std::array<double, 3>;

@@ -9,14 +9,14 @@ namespace plume {
 
 /// A further channel of an image, one float per pixel.
 struct Channel {
-  std::string name;
-  std::vector<float> values;
+  std::string name;           ///< see Image::channels
+  std::vector<float> values;  ///< the first row is the top
 };
 
 /// Linear RGBA, premultiplied by alpha, 32-bit float; the first row is the top of the picture.
 struct Image {
-  int width = 0;
-  int height = 0;
+  int width = 0;   ///< pixels
+  int height = 0;  ///< pixels
   /// 4 * width * height values, interleaved.
   std::vector<float> rgba;
   /// What was asked for besides: "depth" (distance along the ray to the first contribution,
@@ -25,6 +25,7 @@ struct Image {
   /// values; see RenderSettings::channels.
   std::vector<Channel> channels;
 
+  /// The four numbers of a pixel; (0, 0) is at the top left. Requires 0 <= x < width, likewise y.
   const float* pixel(int x, int y) const {
     return &rgba[4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
                       static_cast<std::size_t>(x))];

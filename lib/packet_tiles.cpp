@@ -1,5 +1,6 @@
 #include <tbb/enumerable_thread_specific.h>
 
+#include <limits>
 #include <string>
 #include <type_traits>
 #include <variant>
@@ -12,6 +13,8 @@
 
 namespace plume {
 namespace {
+
+bool is_endless(const Ray& ray) { return ray.t_max == std::numeric_limits<double>::infinity(); }
 
 template <class Walkable>
 class PacketTiles : public TileMaker {
@@ -27,13 +30,24 @@ class PacketTiles : public TileMaker {
   void make(const Tile& tile, Counts& counts) override {
     auto& packets = packets_.local();
     packets.clear();
-    frame_.for_each_pixel(tile, [&](const PixelPlace& pixel) { packets.add(frame_.ray(pixel)); });
+    // Packets walk whole passages: rays that end inside are walked one by one.
+    auto one_by_one = [&](const PixelPlace& pixel) {
+      counts.add(volume_pixel(frame_, walkable_, integrator_, pixel));
+    };
+    frame_.for_each_pixel(tile, [&](const PixelPlace& pixel) {
+      const Ray ray = frame_.ray(pixel);
+      if (is_endless(ray))
+        packets.add(ray);
+      else
+        one_by_one(pixel);
+    });
     packets.composite();
     std::size_t ray = 0;
     frame_.for_each_pixel(tile, [&](const PixelPlace& pixel) {
+      if (!is_endless(frame_.ray(pixel))) return;
       const PacketResult result = packets.result(ray++);
       if (result.declined) {
-        counts.add(volume_pixel(frame_, walkable_, integrator_, pixel));
+        one_by_one(pixel);
         return;
       }
       counts.add(result.trace);

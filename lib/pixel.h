@@ -9,6 +9,7 @@
 #include "plume/preint/compositing.h"
 #include "plume/preint/optical_depth.h"
 #include "plume/preint/scalar_polynomial.h"
+#include "plume/preint/segment_optics.h"
 #include "plume/traverse/segment.h"
 
 namespace plume {
@@ -44,19 +45,43 @@ bool for_each_linear_part(const Segment& segment, double tolerance, Visit&& visi
       });
 }
 
+/// Cuts a segment into parts that the integrator takes (see CurvedSegmentIntegrator), and calls
+///     visit(length, scalar...)
+/// where `scalar` is a ScalarPolynomial or the two ends of a linear part, until it returns false;
+/// returns whether all were visited. Of the scalar, parts are right within `tolerance`.
+template <class Integrator, class Visit>
+bool for_each_part(const Segment& segment, const Integrator&, double tolerance, Visit&& visit) {
+  if constexpr (CurvedSegmentIntegrator<Integrator>) {
+    if (segment.order != ScalarOrder::linear) {
+      const ScalarPolynomial scalar = polynomial_of(segment);
+      const float length = segment_length(segment);
+      if (scalar.degree() <= Integrator::highest_degree) return visit(length, scalar);
+      static_assert(Integrator::highest_degree >= 2);
+      return scalar.for_each_quadratic_piece(
+          tolerance, [&](const ScalarPolynomial& piece, double share) {
+            return visit(static_cast<float>(share) * length, piece);
+          });
+    }
+  }
+  return for_each_linear_part(segment, tolerance, [&](const Segment& part) {
+    return visit(segment_length(part), part.s_in, part.s_out);
+  });
+}
+
 /// Emission and absorption.
 template <class Integrator>
 struct VolumePixel {
   const Integrator& integrator;
   float early_termination;
-  double tolerance;  ///< of the linear parts of segments
+  double tolerance;  ///< of the parts of segments
   Compositor compositor{};
 
   bool operator()(const Segment& segment) {
-    return for_each_linear_part(segment, tolerance, [this](const Segment& part) {
-      compositor.add(integrator.integrate(part.s_in, part.s_out, segment_length(part)));
-      return !compositor.opaque(early_termination);
-    });
+    return for_each_part(segment, integrator, tolerance,
+                         [this](float length, const auto&... scalar) {
+                           compositor.add(integrator.integrate(scalar..., length));
+                           return !compositor.opaque(early_termination);
+                         });
   }
 };
 
@@ -131,12 +156,17 @@ struct AveragePixel {
   }
 };
 
-/// The cells that the ray goes through.
+/// The cells that the ray goes through, each as often as it comes in. A cell's part may come as
+/// several segments, which join.
 struct CellCountPixel {
   std::uint64_t cells = 0;
+  std::uint32_t cell = 0xFFFFFFFFu;
+  double end = 0;
 
-  bool operator()(const Segment&) {
-    ++cells;
+  bool operator()(const Segment& segment) {
+    if (cells == 0 || segment.cell != cell || segment.t_in != end) ++cells;
+    cell = segment.cell;
+    end = segment.t_out;
     return true;
   }
   bool seen() const { return cells > 0; }
@@ -161,8 +191,8 @@ struct OpticalDepthPixel {
   double value() const { return depth; }
 };
 
-/// The distance to the first segment, or linear part of one, that is not transparent; infinite
-/// where there is none.
+/// The distance to where extinction begins, on the first linear part that is not transparent;
+/// infinite where there is none.
 struct FirstPixel {
   const OpticalDepth& optics;
   double tolerance;  ///< of the linear parts of segments
@@ -172,13 +202,30 @@ struct FirstPixel {
   bool operator()(const Segment& segment) {
     return for_each_linear_part(segment, tolerance, [this](const Segment& part) {
       if (!(optics(part.s_in, part.s_out, segment_length(part)) > 0)) return true;
-      depth = part.t_in;
+      depth = part.t_in + clear_share(part) * (part.t_out - part.t_in);
       cell = part.cell;
       return false;
     });
   }
   bool seen() const { return depth < std::numeric_limits<double>::infinity(); }
   double value() const { return depth; }
+
+ private:
+  // How much of a part, which is not all transparent, is so before extinction begins: optical depth
+  // never falls along the ray, so that halving finds it, to 2^-24 of the part.
+  double clear_share(const Segment& part) const {
+    auto is_clear = [&](double share) {
+      const auto there = static_cast<float>(part.s_in + share * (part.s_out - part.s_in));
+      return !(optics.mean_extinction(part.s_in, there) > 0);
+    };
+    if (!is_clear(0)) return 0;
+    double low = 0, high = 1;
+    for (int bit = 0; bit < 24; ++bit) {
+      const double middle = (low + high) / 2;
+      (is_clear(middle) ? low : high) = middle;
+    }
+    return low;
+  }
 };
 
 }  // namespace plume

@@ -8,5 +8,6 @@
 #include "plume/lib/render.h"
 #include "plume/lib/scene.h"
 #include "plume/lib/shading.h"
+#include "plume/lib/version.h"
 #include "plume/mesh/error.h"
 #include "plume/mesh/mesh.h"

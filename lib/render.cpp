@@ -5,12 +5,14 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/tick_count.h>
 
 #include <algorithm>
 #include <atomic>
 #include <mutex>
 
 #include "plume/lib/frame.h"
+#include "plume/lib/planner.h"
 #include "plume/lib/render_check.h"
 #include "plume/lib/render_plan.h"
 #include "plume/lib/scene_body.h"
@@ -76,11 +78,22 @@ bool make_tiles(const Frame& frame, TileMaker& maker, const Progress& progress,
 RenderResult render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                     const Progress& progress) {
   check_settings(scene, settings);
-  RenderSettings effective = settings;
-  Frame frame(scene, camera, effective);
   RenderResult result;
+  std::vector<std::string> reasons;
+  const tbb::tick_count start = tbb::tick_count::now();
+  RenderSettings effective =
+      settings.tolerance ? plan_for(scene, camera, settings, reasons) : settings;
+  result.statistics.seconds_planning = (tbb::tick_count::now() - start).seconds();
+  result.statistics.order = effective.order;
+  Frame frame(scene, camera, effective);
+  frame.set_opaque(find_opaque_pixels(frame));
   std::vector<std::string>& plan = result.statistics.plan;
-  plan = describe_plan(scene, settings);
+  // Where segments are linear, or cut into linear parts, the closed form is all there is to it.
+  const bool unbent = is_linear(scene, effective) || is_classified(scene, effective);
+  if (unbent && effective.integrator.kind == IntegratorKind::second_order_table)
+    effective.integrator.kind = IntegratorKind::closed_form;
+  plan = describe_plan(scene, effective);
+  plan.insert(plan.begin(), reasons.begin(), reasons.end());
   if (has_packets(scene))
     plan.push_back(walked_in_packets(frame)
                        ? fmt::format("rays: in packets, {}", packet_instruction_set())
@@ -92,20 +105,23 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
     plan.push_back(frame.channels().whole_rays()
                        ? "early termination: off, as a channel needs whole rays"
                        : fmt::format("early termination: at a transmittance of {:g}",
-                                     settings.early_termination));
+                                     effective.early_termination));
   }
 
   // A table is built only where the picture needs what is in it: colours.
   if (settings.mode != Mode::volume || !scene.classification().volume)
     effective.integrator.kind = IntegratorKind::closed_form;
-  const Integrator integrator = make_integrator(scene.transfer_function(), effective.integrator);
+  const auto kept = scene.body().integrators.get(scene.transfer_function(), effective.integrator);
+  const Integrator& integrator = *kept;
+  if (const auto table = describe_table(integrator)) plan.push_back(*table);
   const PieceTable pieces(scene.transfer_function());
   const auto maker = is_classified(scene, settings)  ? classified_tiles(frame, integrator)
                      : settings.mode != Mode::volume ? mode_tiles(frame)
                      : walked_in_packets(frame)      ? packet_tiles(frame, integrator, pieces)
                                                      : volume_tiles(frame, integrator);
   result.cancelled = make_tiles(frame, *maker, progress, result.statistics);
-  result.statistics.values = frame.shade_raw();
+  frame.put_surfaces();
+  frame.shade_raw(result.statistics);
   result.statistics.rays = frame.pixel_count();
   result.image = std::move(frame.image());
   return result;

@@ -45,10 +45,36 @@ enum class Mode : std::uint8_t {
   cell_count,
 };
 
+/// A part of a picture, in pixels from its top left corner.
+struct PixelWindow {
+  int x = 0;       ///< of its first column
+  int y = 0;       ///< of its first row
+  int width = 1;   ///< columns, >= 1
+  int height = 1;  ///< rows, >= 1
+};
+
+/// An error to ask for, in the place of a method.
+struct Tolerance {
+  /// The greatest difference of a linear RGBA channel from the reference: the cells' own
+  /// interpolation along whole rays, followed and integrated closely. In the modes that show one
+  /// number a ray as a shade of gray, of the shade. In [0, 1); 0 is the reference.
+  double max_error = 1e-3;
+  /// What of RenderSettings is chosen; the others stay what they are there.
+  bool choose_order = true;
+  bool choose_integrator = true;         ///< likewise
+  bool choose_early_termination = true;  ///< likewise
+};
+
+/// What a picture shows, by which methods, and how large it is.
 struct RenderSettings {
   int width = 1024;  ///< pixels, 1 to 65536
   int height = 768;  ///< pixels, 1 to 65536
-  Mode mode = Mode::volume;
+  /// Renders this part of the picture alone: the image has its size.
+  std::optional<PixelWindow> window;
+  /// The cheapest plan that keeps to this error is made and taken (lib/planner.h says how, and what
+  /// of it is a bound and what is measured). The statistics' plan says which and why.
+  std::optional<Tolerance> tolerance;
+  Mode mode = Mode::volume;  ///< what a pixel shows
   /// Of the volume.
   IntegratorSettings integrator;
   /// Of interval volumes; `linear` is there to compare.
@@ -58,12 +84,19 @@ struct RenderSettings {
   std::optional<Lighting> lighting;
   /// Of the mesh, only what all of these keep is seen, in every mode. A box is planes_of_box().
   std::vector<ClipPlane> clip_planes;
+  /// Rays end at these distances (in world units along rays of length one, as the channel "depth"
+  /// has them): what a host program has drawn hides what is behind it. One for each pixel of the
+  /// picture, infinite where nothing is, or none. With the scene's surfaces, the nearer counts.
+  std::vector<float> depth_limit;
   /// The polynomial that the scalar is taken for inside of cells that are not tetrahedra; see
-  /// traverse/inner_scalar.h. Optics see it in linear parts that differ from it by at most 1e-4 of
-  /// the field's range (see ScalarPolynomial for cells across which it bends too much for that);
-  /// maxima and integrals are exact. Above `linear`, the whole of a cell with a NaN value is
-  /// transparent; a linear segment is where one of the two faces has such a value.
+  /// traverse/inner_scalar.h. Maxima and integrals are those of the polynomial. Above `linear`, the
+  /// whole of a cell with a NaN value is transparent; a linear segment is where one of the two
+  /// faces has such a value.
   ScalarOrder order = ScalarOrder::linear;
+  /// Above order 1, optics see the scalar in linear parts that differ from it by at most this share
+  /// of the field's range (see ScalarPolynomial for cells across which it bends too much for that);
+  /// `adaptive` follows the cells' interpolation to the same. In (0, 1).
+  double scalar_tolerance = 1e-4;
   /// A ray ends once it is seen through by no more than this share: a colour channel is off by at
   /// most this times the transfer function's largest value in it. In [0, 1).
   double early_termination = 1e-4;
@@ -72,6 +105,10 @@ struct RenderSettings {
   /// Walk ray by ray in plain scalar code where packets of rays would do: for comparison. The two
   /// take the same way through the mesh, and their pictures differ by less than 1e-5.
   bool scalar_twin = false;
+  /// Modes in shades of gray: the numbers that run from one end of the shades to the other, low
+  /// below high; numbers beyond are as bright as the nearer end. By default what the mode says, of
+  /// this picture: to fix it is for pictures that are compared, or shown one after the other.
+  std::optional<std::array<float, 2>> gray_range{};
   /// Further channels: "depth", "optical_depth", "cell_id", "cell_count". Optical depth and cell
   /// count need whole rays, so early termination is off where one of them is asked for.
   ///
@@ -82,8 +119,9 @@ struct RenderSettings {
   std::vector<std::string> channels;
 };
 
+/// Counts over all rays of a picture, and the plan.
 struct RenderStatistics {
-  std::uint64_t rays = 0;
+  std::uint64_t rays = 0;             ///< one a pixel
   std::uint64_t rays_hit = 0;         ///< rays that came into the mesh
   std::uint64_t entries = 0;          ///< times that a ray came in through the boundary
   std::uint64_t cells_visited = 0;    ///< cells walked through by all rays
@@ -91,16 +129,22 @@ struct RenderStatistics {
   std::uint64_t rays_in_packets = 0;  ///< rays walked by packets; the others one by one
   std::uint64_t surfaces = 0;         ///< isosurfaces crossed, before rays ended
   std::uint64_t visits = 0;           ///< to interval volumes, before rays ended
+  double seconds_planning = 0;        ///< spent on finding a plan for a tolerance
+  /// The order that was taken: the settings', or the plan's.
+  ScalarOrder order = ScalarOrder::linear;
   /// What a mode's numbers run from and to, in its channel's unit; nothing in the mode volume and
   /// where no ray has one.
   std::optional<std::array<float, 2>> values;
+  /// What the shades of gray run over; nothing in modes without them, or where `values` is nothing.
+  std::optional<std::array<float, 2>> gray_range;
   /// What was chosen for this scene and why, one choice a line.
   std::vector<std::string> plan;
 };
 
+/// A picture and what it took.
 struct RenderResult {
-  Image image;
-  RenderStatistics statistics;
+  Image image;                  ///< see Image
+  RenderStatistics statistics;  ///< see RenderStatistics
   /// True where the progress callback asked to stop; the image is then incomplete.
   bool cancelled = false;
 };

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "plume/lib/render_plan.h"
 #include "plume/mesh/error.h"
@@ -31,6 +32,16 @@ void check_channels(const Scene& scene, const RenderSettings& settings) {
                             settings.lighting ? "light:" : "channel 'normal':"));
 }
 
+void check_window(const PixelWindow& window, const RenderSettings& settings) {
+  const bool inside = window.x >= 0 && window.y >= 0 && window.width >= 1 && window.height >= 1 &&
+                      window.width <= settings.width - window.x &&
+                      window.height <= settings.height - window.y;
+  if (!inside)
+    throw Error(fmt::format(
+        "a window of {}x{} pixels at ({}, {}): it must lie in the picture of {}x{}", window.width,
+        window.height, window.x, window.y, settings.width, settings.height));
+}
+
 }  // namespace
 
 void check_settings(const Scene& scene, const RenderSettings& settings) {
@@ -43,13 +54,31 @@ void check_settings(const Scene& scene, const RenderSettings& settings) {
                             settings.early_termination));
   for (const ClipPlane& plane : settings.clip_planes)
     if (const auto problem = problem_of(plane)) throw Error(*problem);
+  if (const auto& gray = settings.gray_range)
+    if (!((*gray)[0] < (*gray)[1]) || !std::isfinite((*gray)[1] - (*gray)[0]))
+      throw Error(
+          fmt::format("shades of gray from {:g} to {:g}: the first must be below the second",
+                      (*gray)[0], (*gray)[1]));
   if (settings.threads < 0)
     throw Error(fmt::format("{} threads: it must be 1 or more, or 0 for all", settings.threads));
-  if (settings.integrator.samples < 1)
-    throw Error(fmt::format("{} samples per segment: at least 1", settings.integrator.samples));
-  if (settings.order < ScalarOrder::linear || settings.order > ScalarOrder::cubic)
-    throw Error(fmt::format("order {}: it must be 1 (linear), 2 (quadratic) or 3 (cubic)",
-                            static_cast<int>(settings.order)));
+  if (const auto problem = settings.integrator.problem()) throw Error(*problem);
+  if (settings.order < ScalarOrder::linear || settings.order > ScalarOrder::adaptive)
+    throw Error(
+        fmt::format("order {}: it must be 1 (linear), 2 (quadratic), 3 (cubic) or 4 (adaptive)",
+                    static_cast<int>(settings.order)));
+  if (!(settings.scalar_tolerance > 0 && settings.scalar_tolerance < 1))
+    throw Error(fmt::format("a scalar tolerance of {}: it must be above 0 and below 1",
+                            settings.scalar_tolerance));
+  if (settings.tolerance &&
+      !(settings.tolerance->max_error >= 0 && settings.tolerance->max_error < 1))
+    throw Error(fmt::format("a tolerance of {}: it must be at least 0 (the reference) and below 1",
+                            settings.tolerance->max_error));
+  const auto pixels =
+      static_cast<std::size_t>(settings.width) * static_cast<std::size_t>(settings.height);
+  if (!settings.depth_limit.empty() && settings.depth_limit.size() != pixels)
+    throw Error(fmt::format("depth_limit has {} values for {} pixels: give one for each, or none",
+                            settings.depth_limit.size(), pixels));
+  if (settings.window) check_window(*settings.window, settings);
   check_channels(scene, settings);
   if (settings.lighting)
     if (const auto problem = settings.lighting->problem())

@@ -12,9 +12,13 @@ bool is_classified(const Scene& scene, const RenderSettings& settings) {
          (settings.mode == Mode::volume || settings.mode == Mode::depth);
 }
 
-bool is_linear(const Scene& scene, const RenderSettings& settings) {
-  return settings.order == ScalarOrder::linear || scene.field().association == Association::cell ||
+bool has_linear_cells(const Scene& scene) {
+  return scene.field().association == Association::cell ||
          std::string(scene.form()) == "tetrahedra";
+}
+
+bool is_linear(const Scene& scene, const RenderSettings& settings) {
+  return settings.order == ScalarOrder::linear || has_linear_cells(scene);
 }
 
 namespace {
@@ -27,6 +31,8 @@ const char* describe_order(ScalarOrder order) {
       return "order 2: quadratic, by one value inside of each cell";
     case ScalarOrder::cubic:
       return "order 3: cubic, by two values inside of each cell";
+    case ScalarOrder::adaptive:
+      return "adaptive: cut until cubics follow the cells' interpolation";
   }
   return "linear between a cell's faces";
 }
@@ -55,6 +61,23 @@ void describe_surfaces(const Scene& scene, const RenderSettings& settings,
 
 }  // namespace
 
+std::optional<std::string> describe_table(const Integrator& integrator) {
+  return std::visit(
+      [](const auto& chosen) -> std::optional<std::string> {
+        if constexpr (requires { chosen.report(); }) {
+          const TableReport& report = chosen.report();
+          if (report.bytes == 0) return "table: none, as there is nothing to tabulate";
+          return fmt::format(
+              "table: {:.1f} MB, built in {:.0f} ms, error {:.1g} at most and {:.1g} RMS of 4096 "
+              "segments spread over it",
+              static_cast<double>(report.bytes) * 1e-6, 1e3 * report.build_seconds,
+              report.largest_error, report.rms_error);
+        }
+        return std::nullopt;
+      },
+      integrator);
+}
+
 std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings& settings) {
   std::vector<std::string> plan;
   const std::string form = scene.form();
@@ -73,13 +96,18 @@ std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings&
                                                     : describe_order(settings.order)));
   if (!settings.clip_planes.empty())
     plan.push_back(fmt::format("clip planes: {}, where rays are cut", settings.clip_planes.size()));
+  if (scene.surface_triangle_count() > 0)
+    plan.push_back(
+        fmt::format("opaque surfaces: {} triangles; rays end there, and are walked one by one",
+                    scene.surface_triangle_count()));
   if (settings.mode != Mode::volume) {
     plan.push_back(is_classified(scene, settings) ? "first hit of an isosurface or interval"
                                                   : in_words(settings.mode).cost);
   } else if (!scene.classification().volume) {
     plan.push_back("volume: none");
   } else {
-    constexpr const char* kNames[] = {"midpoint", "table", "closed form"};
+    constexpr const char* kNames[] = {"midpoint", "table", "closed form", "table of second order",
+                                      "reference"};
     plan.push_back(fmt::format("integrator: {} ({} knots)",
                                kNames[static_cast<int>(settings.integrator.kind)],
                                scene.transfer_function().knots.size()));

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <utility>
 
 #include "plume/lib/camera.h"
 #include "plume/lib/fitted_map.h"
@@ -11,6 +13,7 @@
 #include "plume/mesh/connected_parts.h"
 #include "plume/mesh/error.h"
 #include "plume/mesh/gradients.h"
+#include "plume/mesh/put_scalars.h"
 #include "plume/mesh/validate.h"
 #include "plume/preint/closed_form.h"
 
@@ -40,10 +43,10 @@ std::size_t boundary_face_count_of(const WalkableRectilinear& mesh) {
 }
 
 // See Scene::default_unit_distance().
-double fitted_unit_distance(const Scene& scene) {
+double fitted_unit_distance(const Scene& scene, const ColorMap& map) {
   constexpr int kAcross = 12;  // rays along each side, from each of three directions
   constexpr double kWanted = 4;
-  const ClosedForm optics(to_transfer_function(scene.default_color_map(), 1));
+  const ClosedForm optics(to_transfer_function(map, 1));
   std::vector<double> depths;
   for (const char* view : {"+x", "+y", "+z"}) {
     Camera camera = named_view(view, scene.bounds());
@@ -66,68 +69,130 @@ double fitted_unit_distance(const Scene& scene) {
   return *fourth_fifth / kWanted;
 }
 
-}  // namespace
+// A field of the user's mesh, and what of it does not depend on how the mesh is walked.
+struct ReadField {
+  ScalarField field;
+  bool averaged = false;
+  std::vector<Finding> findings;
+  std::vector<float> gradients;  // of the user's points, where they are wanted
+};
 
-Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_unique<Body>()) {
-  body_->bounds = check_structure(mesh);
-  body_->field = select_field(mesh, options.field);
-  if (body_->field.association == Association::cell && options.cell_data == CellData::averaged) {
-    if (body_->field.not_finite > 0)
-      body_->findings.push_back(
+ReadField read_field(const Mesh& mesh, const FieldRequest& request, const SceneOptions& options) {
+  ReadField read;
+  ScalarField& field = read.field;
+  field = select_field(mesh, request);
+  if (field.association == Association::cell && options.cell_data == CellData::averaged) {
+    if (field.not_finite > 0)
+      read.findings.push_back(
           {fmt::format("values of '{}' are NaN or infinite; the averages leave them out",
-                       body_->field.name),
-           body_->field.not_finite,
+                       field.name),
+           field.not_finite,
            {}});
-    body_->field = average_to_points(mesh, body_->field);
-    body_->cell_data_averaged = true;
+    field = average_to_points(mesh, field);
+    read.averaged = true;
   }
-  const ScalarField& field = body_->field;
-  body_->default_map = fitted_color_map(field.values);
   if (field.not_finite > 0)
-    body_->findings.push_back(
+    read.findings.push_back(
         {fmt::format("values of '{}' are NaN or infinite; they are transparent", field.name),
          field.not_finite,
          {}});
-
-  std::vector<float> gradients;
   if (options.keep_gradients) {
     if (field.association == Association::cell)
       throw Error(fmt::format(
           "gradients of '{}': its values are constant in each cell; average them to the points "
           "(--cell-data averaged)",
           field.name));
-    gradients = point_gradients(mesh, field);
+    read.gradients = point_gradients(mesh, field);
   }
-  // What puts the gradients of the user's points where the walkable ones are.
-  const bool keep_cells = options.keep_cell_numbers || options.keep_gradients;
+  return read;
+}
 
+// All but the values.
+void take_words(Scene::Body& body, ReadField& read) {
+  const ScalarField& field = read.field;
+  body.field = {field.name, field.association, {}, field.low, field.high, field.not_finite};
+  body.cell_data_averaged = read.averaged;
+  auto& all = body.findings;
+  all.erase(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(body.findings_of_field));
+  body.findings_of_field = read.findings.size();
+  all.insert(all.begin(), std::make_move_iterator(read.findings.begin()),
+             std::make_move_iterator(read.findings.end()));
+}
+
+const char* kind_of(Association association) {
+  return association == Association::point ? "on points" : "constant in each cell";
+}
+
+}  // namespace
+
+Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_unique<Body>()) {
+  body_->bounds = check_structure(mesh);
+  body_->options = options;
+  body_->user_points = mesh.point_count();
+  body_->user_cells = mesh.cell_count();
+  ReadField read = read_field(mesh, options.field, options);
+  const ScalarField& field = read.field;
+  const bool on_points = field.association == Association::point;
+  const bool keep_points = on_points && (options.keep_field_order || options.keep_gradients);
+  const bool keep_cells = options.keep_cell_numbers || (!on_points && options.keep_field_order);
+
+  body_->sample = sample_for_map(field.values);
+  take_words(*body_, read);
   auto take = [&](auto walkable) {
     auto& found = walkable->mesh.findings;
     std::move(found.begin(), found.end(), std::back_inserter(body_->findings));
     found.clear();
     if (options.keep_gradients) {
-      body_->gradients.emplace(walkable->mesh, mesh, std::move(gradients));
-      if constexpr (requires { walkable->mesh.original_cells; })
-        if (!options.keep_cell_numbers) walkable->mesh.original_cells = {};
+      body_->gradients.emplace(walkable->mesh, std::move(read.gradients));
+      if constexpr (requires { walkable->mesh.point_numbers; })
+        if (!options.keep_field_order) walkable->mesh.point_numbers = {};
     }
     body_->walkable = std::move(walkable);
   };
   if (mesh.is_rectilinear())
-    take(std::make_unique<Walkable<RectilinearWalker>>(make_walkable_rectilinear(
-        mesh, {field.name, field.association, std::move(body_->field.values)})));
+    take(std::make_unique<Walkable<RectilinearWalker>>(
+        make_walkable_rectilinear(mesh, std::move(read.field))));
   else if (mesh.is_grid())
     take(std::make_unique<Walkable<GridWalker>>(make_walkable_grid(mesh, field, body_->bounds)));
   else if (all_tetrahedra(mesh))
     take(std::make_unique<Walkable<TetWalker>>(
-        make_walkable_tets(mesh, field, body_->bounds, keep_cells)));
+        make_walkable_tets(mesh, field, body_->bounds, keep_cells, keep_points)));
   else {
-    WalkableCells cells = make_walkable_cells(mesh, field, body_->bounds, keep_cells);
+    WalkableCells cells = make_walkable_cells(mesh, field, body_->bounds, keep_cells, keep_points);
     cells.corner_cells = make_corner_cells(cells);
     take(std::make_unique<Walkable<CellWalker>>(std::move(cells)));
   }
-  body_->field.values = {};
-  body_->unit_distance = fitted_unit_distance(*this);
-  set_transfer_function(to_transfer_function(body_->default_map, body_->unit_distance));
+  read.field.values = {};
+  set_transfer_function(to_transfer_function(default_color_map(), default_unit_distance()));
+}
+
+void Scene::set_field(const Mesh& mesh, const FieldRequest& request) {
+  Body& body = *body_;
+  if (!body.options.keep_field_order)
+    throw Error(
+        "the scene does not know the order of its field's values; set "
+        "SceneOptions::keep_field_order where it is made");
+  if (mesh.point_count() != body.user_points || mesh.cell_count() != body.user_cells)
+    throw Error(fmt::format(
+        "a mesh of {} points and {} cells for a scene made of {} and {}: a field can be set from "
+        "the same mesh alone; make a scene anew",
+        mesh.point_count(), mesh.cell_count(), body.user_points, body.user_cells));
+  ReadField read = read_field(mesh, request, body.options);
+  if (read.field.association != body.field.association)
+    throw Error(fmt::format(
+        "field '{}' is {} and the scene was made of one that is {}; make a scene anew",
+        read.field.name, kind_of(read.field.association), kind_of(body.field.association)));
+
+  body.sample = sample_for_map(read.field.values);
+  body.default_map.reset();
+  body.unit_distance.reset();
+  take_words(body, read);
+  std::visit(
+      [&](const auto& walkable) {
+        if (body.gradients) body.gradients->put(walkable->mesh, std::move(read.gradients));
+        put_scalars(walkable->mesh, std::move(read.field));
+      },
+      body.walkable);
 }
 
 Scene::~Scene() = default;
@@ -138,10 +203,23 @@ const Bounds& Scene::bounds() const { return body_->bounds; }
 const ScalarField& Scene::field() const { return body_->field; }
 bool Scene::cell_data_averaged() const { return body_->cell_data_averaged; }
 const std::vector<Finding>& Scene::findings() const { return body_->findings; }
-const ColorMap& Scene::default_color_map() const { return body_->default_map; }
 const TransferFunction& Scene::transfer_function() const { return body_->transfer_function; }
 
-double Scene::default_unit_distance() const { return body_->unit_distance; }
+const ColorMap& Scene::default_color_map() const {
+  const std::lock_guard lock(body_->fitting);
+  if (!body_->default_map) {
+    body_->default_map = fitted_color_map(body_->sample, body_->options.color_range);
+    body_->sample = {};
+  }
+  return *body_->default_map;
+}
+
+double Scene::default_unit_distance() const {
+  const ColorMap& map = default_color_map();
+  const std::lock_guard lock(body_->fitting);
+  if (!body_->unit_distance) body_->unit_distance = fitted_unit_distance(*this, map);
+  return *body_->unit_distance;
+}
 
 void Scene::set_transfer_function(TransferFunction transfer_function) {
   if (const auto problem = transfer_function.problem())
@@ -186,15 +264,40 @@ std::size_t Scene::bytes() const {
 
 bool Scene::has_gradients() const { return body_->gradients.has_value(); }
 
+void Scene::add_surface(OpaqueSurface surface) {
+  if (const auto problem = surface.problem()) throw Error(*problem);
+  if (surface.triangles.empty()) return;
+  body_->surfaces.push_back({OpaqueTriangles(surface.points, surface.triangles), surface.color,
+                             std::move(surface.point_colors), std::move(surface.point_normals)});
+}
+
+void Scene::remove_surfaces() { body_->surfaces.clear(); }
+
+std::size_t Scene::surface_triangle_count() const {
+  std::size_t count = 0;
+  for (const SceneSurface& surface : body_->surfaces) count += surface.index.triangles().size();
+  return count;
+}
+
+Bounds Scene::visible_bounds() const {
+  Bounds bounds = body_->bounds;
+  for (const SceneSurface& surface : body_->surfaces)
+    for (std::size_t a = 0; a < 3; ++a) {
+      bounds.low[a] = std::min(bounds.low[a], surface.index.bounds().low[a]);
+      bounds.high[a] = std::max(bounds.high[a], surface.index.bounds().high[a]);
+    }
+  return bounds;
+}
+
 TraceResult Scene::trace(const Ray& ray, const std::function<bool(const Segment&)>& visit,
-                         ScalarOrder order) const {
+                         const ScalarRequest& request) const {
   return std::visit(
       [&](const auto& w) {
         auto renumbered = [&](Segment segment) {
           segment.cell = w->mesh.original_cell(segment.cell);
           return visit(segment);
         };
-        return plume::trace(w->mesh, w->boundary, ray, renumbered, order);
+        return plume::trace(w->mesh, w->boundary, ray, renumbered, request);
       },
       body_->walkable);
 }

@@ -1,13 +1,16 @@
 /// What is looked at: a mesh made walkable, one of its fields, and what the values look like.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "plume/lib/color_map.h"
+#include "plume/lib/opaque_surface.h"
 #include "plume/mesh/findings.h"
 #include "plume/mesh/local_frame.h"
 #include "plume/mesh/mesh.h"
@@ -25,9 +28,10 @@ enum class CellData : std::uint8_t {
   averaged,  ///< made point data, weighted by 1 / distance; see mesh/cell_to_point.h
 };
 
+/// Which field a scene shows, and what it keeps besides what every picture needs.
 struct SceneOptions {
   /// Which field; by default the mesh's active one, else its first.
-  FieldRequest field;
+  FieldRequest field{};
   /// Keep the numbers of the user's cells, 4 bytes each; needed for the channel "cell_id".
   bool keep_cell_numbers = false;
   /// Read where the field is cell-centred.
@@ -35,9 +39,16 @@ struct SceneOptions {
   /// Compute and keep the field's gradients at the points, 12 bytes each; needed for light and for
   /// the channel "normal". The field must be on points, or averaged to them.
   bool keep_gradients = false;
+  /// Keep what set_field() needs: where the user's points have gone, 4 bytes each, or, where the
+  /// field is constant in cells, where the cells have, 4 bytes each. Of grids, nothing.
+  bool keep_field_order = false;
+  /// What the default colour map runs over, low below high, where the field's own values at this
+  /// time are not all that is going to be shown. By default their 1st to 99th percentile.
+  std::optional<std::array<double, 2>> color_range{};
 };
 
-/// Immutable but for the classification; safe to render from several threads.
+/// Immutable but for the classification, opaque surfaces and, where the options say so, the field;
+/// safe to render from several threads.
 class Scene {
  public:
   /// Checks the mesh, makes it walkable (in parallel) and chooses a transfer function that shows
@@ -45,9 +56,11 @@ class Scene {
   /// Throws Error where the mesh or the field request is wrong.
   explicit Scene(const Mesh& mesh, const SceneOptions& options = {});
   ~Scene();
+  /// What was moved from can be assigned to and destroyed, no more.
   Scene(Scene&&) noexcept;
-  Scene& operator=(Scene&&) noexcept;
+  Scene& operator=(Scene&&) noexcept;  ///< likewise
 
+  /// Of all points, in world coordinates.
   const Bounds& bounds() const;
   /// The chosen field: name, association, range, count of values that are not finite. Its values
   /// are empty: they live in the walkable form. Cell data that was averaged is point data here.
@@ -58,15 +71,30 @@ class Scene {
   const std::vector<Finding>& findings() const;
   /// "tetrahedra", "grid", "cells" or "rectilinear grid": the form in which the mesh is walked.
   const char* form() const;
-  std::size_t cell_count() const;
-  std::size_t point_count() const;
-  std::size_t boundary_face_count() const;
+  std::size_t cell_count() const;           ///< cells that are walked
+  std::size_t point_count() const;          ///< points that they use
+  std::size_t boundary_face_count() const;  ///< faces with one cell
   /// Parts that hang together by faces, counted at each call.
   std::size_t connected_part_count() const;
   /// Bytes of the walkable form, the boundary's hierarchy not included.
   std::size_t bytes() const;
   /// Whether keep_gradients was set.
   bool has_gradients() const;
+
+  /// Shows another field, or new values of the same: for a solver whose mesh stays. Nothing is
+  /// rebuilt but what depends on the field: the scalars in the walkable mesh, gradients where they
+  /// are kept, findings, and, once they are asked for, default colour map and unit distance. The
+  /// classification stays, so that pictures before and after can be compared; to fit it anew,
+  /// `set_transfer_function(to_transfer_function(default_color_map(), default_unit_distance()))`.
+  /// Then all is bit for bit as in a scene made anew.
+  ///
+  /// `mesh` must be the one that the scene was made of (the same arrays, or copies of them); only
+  /// its fields are read, and its points and cells where values are averaged or gradients kept.
+  /// Not to be called while others render the scene. Throws Error, and leaves the scene as it is,
+  /// where keep_field_order was not set, where the mesh has another number of points or cells,
+  /// where the request is wrong, or where the field is constant in cells and the first was on
+  /// points, or the other way round.
+  void set_field(const Mesh& mesh, const FieldRequest& request = {});
 
   /// The colour map fitted to the field's values: "turbo" from the 1st to the 99th percentile,
   /// the more opaque the rarer a value is.
@@ -89,13 +117,25 @@ class Scene {
   /// where the transfer function has a problem (see TransferFunction::problem).
   void set_transfer_function(TransferFunction transfer_function);
 
+  /// Adds an opaque thing to the scene: in front of the mesh, inside of it or behind it, it hides
+  /// what is behind it, correct within each cell. It is seen in the modes volume and depth; in the
+  /// others it ends rays. Throws Error where it has a problem (see OpaqueSurface::problem).
+  void add_surface(OpaqueSurface surface);
+  /// Takes all of them out again.
+  void remove_surfaces();
+  /// Of all surfaces.
+  std::size_t surface_triangle_count() const;
+  /// Of the mesh and of the surfaces: what a camera should see.
+  Bounds visible_bounds() const;
+
   /// Follows a ray and calls `visit` for each segment, front to back, until that returns false.
   /// `Segment::cell` is a number of the user's mesh where keep_cell_numbers was set or the mesh is
   /// a grid. Above `linear`, segments have inner values where their cells are not linear
-  /// (scalar_at() gives the scalar anywhere along one). For programs with an optics of their own;
+  /// (scalar_at() gives the scalar anywhere along one). `adaptive` may make several segments of a
+  /// cell. For programs with an optics of their own;
   /// see traverse/trace.h for the guarantees.
   TraceResult trace(const Ray& ray, const std::function<bool(const Segment&)>& visit,
-                    ScalarOrder order = ScalarOrder::linear) const;
+                    const ScalarRequest& request = {}) const;
 
   struct Body;
   /// For render().

@@ -23,11 +23,11 @@ struct Light {
 /// where n is the normal on the viewer's side (surfaces are two-sided), l points towards the light
 /// and h halfway between it and the viewer. Lights on the other side add nothing.
 struct Lighting {
-  std::vector<Light> lights{{}};
-  double ambient = 0.2;    ///< >= 0
-  double diffuse = 0.8;    ///< >= 0
-  double specular = 0.25;  ///< >= 0
-  double exponent = 30;    ///< > 0
+  std::vector<Light> lights{{}};  ///< by default one headlight
+  double ambient = 0.2;           ///< >= 0
+  double diffuse = 0.8;           ///< >= 0
+  double specular = 0.25;         ///< >= 0
+  double exponent = 30;           ///< > 0
   /// Light intervals by the normal where the ray comes in, too.
   bool intervals = true;
 
@@ -37,9 +37,10 @@ struct Lighting {
 
 /// What light makes of a colour; as it stands, nothing.
 struct Shading {
-  float factor = 1;
-  float highlight = 0;
+  float factor = 1;     ///< of the colour
+  float highlight = 0;  ///< white, to be added, as opaque as the colour
 
+  /// The colour in that light.
   SegmentColor applied(const SegmentColor& color) const {
     const float white = highlight * color.alpha;
     return {color.r * factor + white, color.g * factor + white, color.b * factor + white,

@@ -18,25 +18,28 @@ namespace plume {
 /// The values are never written to.
 class Array {
  public:
+  /// Of the values.
   enum class Type : std::uint8_t { uint8, int32, int64, float32, float64 };
 
   Array() = default;
 
+  /// Takes the values, which may be of any of the five types.
   template <class T>
   static Array own(std::vector<T> values) {
     auto held = std::make_shared<const std::vector<T>>(std::move(values));
     return Array(held->data(), held->size(), type_of<T>(), held);
   }
 
+  /// Reads the caller's memory, which `keep_alive`, if given, holds for as long as it is needed.
   template <class T>
   static Array borrow(std::span<const T> values, std::shared_ptr<const void> keep_alive = {}) {
     return Array(values.data(), values.size(), type_of<T>(), std::move(keep_alive));
   }
 
-  std::size_t size() const { return size_; }
-  bool empty() const { return size_ == 0; }
-  Type type() const { return type_; }
-  const void* data() const { return data_; }
+  std::size_t size() const { return size_; }  ///< values, not bytes
+  bool empty() const { return size_ == 0; }   ///< whether there are none
+  Type type() const { return type_; }         ///< of each value
+  const void* data() const { return data_; }  ///< where the first is
 
   /// Calls `f` with the values as a std::span<const T> of their true type: one dispatch for a whole
   /// loop. `f` must return the same type for every T.

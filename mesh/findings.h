@@ -9,9 +9,9 @@ namespace plume {
 
 /// One kind of problem, with the first few cells (numbers of the user's mesh) as examples.
 struct Finding {
-  std::string what;
-  std::size_t count = 0;
-  std::vector<std::size_t> examples;
+  std::string what;                   ///< in words, to follow a number
+  std::size_t count = 0;              ///< how many there are
+  std::vector<std::size_t> examples;  ///< the first few
 };
 
 /// "12 cells inside out, among them 5, 17, 23"

@@ -11,12 +11,14 @@ namespace plume {
 
 /// Axis-aligned bounds in world coordinates.
 struct Bounds {
-  std::array<double, 3> low{0, 0, 0};
-  std::array<double, 3> high{0, 0, 0};
+  std::array<double, 3> low{0, 0, 0};   ///< least x, y, z
+  std::array<double, 3> high{0, 0, 0};  ///< greatest x, y, z
 
+  /// Halfway between low and high.
   std::array<double, 3> center() const {
     return {0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 0.5 * (low[2] + high[2])};
   }
+  /// Distance of low from high.
   double diagonal() const {
     return std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
   }
@@ -24,17 +26,18 @@ struct Bounds {
 
 /// A point as walkers read it: 16 bytes, position in the local frame and the scalar.
 struct WalkablePoint {
-  float position[3];
-  float scalar;
+  float position[3];  ///< in the local frame
+  float scalar;       ///< 0 where the field is on cells
 };
 
 /// Maps world to local coordinates: (world - center) * scale. The mesh comes to lie in [-1, 1]^3,
 /// so that float's whole precision serves its extent, wherever it lies and however large it is;
 /// scale is a power of two, so that scaling a mesh by one changes no decision of any ray.
 struct LocalFrame {
-  std::array<double, 3> center{0, 0, 0};
-  double scale = 1;
+  std::array<double, 3> center{0, 0, 0};  ///< what becomes 0, in world coordinates
+  double scale = 1;                       ///< a power of two
 
+  /// The one for these bounds.
   static LocalFrame of(const Bounds& bounds) {
     LocalFrame frame;
     frame.center = bounds.center();

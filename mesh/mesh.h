@@ -28,10 +28,10 @@ enum class Association : std::uint8_t { point, cell };
 
 /// Values on points or cells; `values` holds `components` numbers for each, interleaved.
 struct Field {
-  std::string name;
-  Association association = Association::point;
-  int components = 1;
-  Array values;
+  std::string name;                              ///< as users ask for it
+  Association association = Association::point;  ///< where the values are
+  int components = 1;                            ///< numbers for each, >= 1
+  Array values;                                  ///< components times points or cells
 };
 
 /// Explicit cells, laid out as in vtkUnstructuredGrid, so that its arrays can be borrowed.
@@ -47,7 +47,7 @@ struct Cells {
   /// Polyhedra only. Cell i's faces start at polyhedron_faces[polyhedron_locations[i]]: the number
   /// of faces, then for each face its number of points and their ids. -1 where cell i is none.
   Array polyhedron_locations;
-  Array polyhedron_faces;
+  Array polyhedron_faces;  ///< see above
 };
 
 /// A mesh is one of three things: a rectilinear grid (`dimensions` and `axes` set, neither points
@@ -64,16 +64,18 @@ struct Mesh {
   /// Points along i, j and k of a grid; point (i, j, k) is i + ni * (j + nj * k). All zero for a
   /// mesh of explicit cells.
   std::array<std::int64_t, 3> dimensions{0, 0, 0};
-  Cells cells;
+  Cells cells;  ///< of a mesh of explicit cells
   /// Grids only: nonzero (uint8) where a cell is hidden (blanked, a ghost). May be empty.
   Array hidden_cells;
-  std::vector<Field> fields;
+  std::vector<Field> fields;  ///< names may occur on points and on cells
   /// Name of the field that the file calls active; may be empty.
   std::string active_field;
 
   /// A grid of either kind: cells follow from `dimensions`.
   bool is_grid() const { return dimensions[0] > 0; }
+  /// Whether `axes` are set.
   bool is_rectilinear() const { return !axes[0].empty() || !axes[1].empty() || !axes[2].empty(); }
+  /// Used or not.
   std::size_t point_count() const;
   /// Hidden cells included.
   std::size_t cell_count() const;

@@ -21,12 +21,12 @@ struct FieldRequest {
 struct ScalarField {
   /// As users would ask for it: "velocity:magnitude".
   std::string name;
-  Association association = Association::point;
+  Association association = Association::point;  ///< where the values are
   /// Values that are not finite are NaN here; they are transparent.
   std::vector<float> values;
   /// Least and greatest finite value; both 0 where there is none.
   float low = 0;
-  float high = 0;
+  float high = 0;  ///< see low
   /// How many values were NaN or infinite.
   std::size_t not_finite = 0;
 };

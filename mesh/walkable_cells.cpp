@@ -175,8 +175,10 @@ void store_faces(const Slots& slots, WalkableCells& result) {
   }
 }
 
-// Points in the order in which the faces first use them; unused points are left out.
-void store_points(const Mesh& mesh, const ScalarField& scalar, WalkableCells& result) {
+// Points in the order in which the faces first use them; unused points are left out. Returns the
+// number of each of the user's points, kNone where there is none.
+std::vector<std::uint32_t> store_points(const Mesh& mesh, const ScalarField& scalar,
+                                        WalkableCells& result) {
   std::vector<std::uint32_t> renumbered(mesh.point_count(), kNone);
   for (std::uint32_t& point : result.face_points) {
     if (renumbered[point] == kNone) {
@@ -188,6 +190,7 @@ void store_points(const Mesh& mesh, const ScalarField& scalar, WalkableCells& re
     }
     point = renumbered[point];
   }
+  return renumbered;
 }
 
 template <class T>
@@ -200,11 +203,12 @@ std::size_t bytes_of(const std::vector<T>& values) {
 std::size_t WalkableCells::bytes() const {
   return bytes_of(points) + bytes_of(face_begin) + bytes_of(face_points) + bytes_of(face_sides) +
          bytes_of(cell_begin) + bytes_of(cell_faces) + bytes_of(cell_values) +
-         bytes_of(original_cells) + bytes_of(boundary) + bytes_of(corner_cells);
+         bytes_of(original_cells) + bytes_of(point_numbers) + bytes_of(boundary) +
+         bytes_of(corner_cells);
 }
 
 WalkableCells make_walkable_cells(const Mesh& mesh, const ScalarField& scalar, const Bounds& bounds,
-                                  bool keep_original_cells) {
+                                  bool keep_original_cells, bool keep_point_numbers) {
   WalkableCells result;
   result.frame = LocalFrame::of(bounds);
   const CellReader cells(mesh);
@@ -213,7 +217,8 @@ WalkableCells make_walkable_cells(const Mesh& mesh, const ScalarField& scalar, c
   match(mesh.point_count(), slots, order, result.findings);
   orient(slots, order, result.findings);
   store_faces(slots, result);
-  store_points(mesh, scalar, result);
+  std::vector<std::uint32_t> numbers = store_points(mesh, scalar, result);
+  if (keep_point_numbers) result.point_numbers = std::move(numbers);
   if (scalar.association == Association::cell) {
     result.cell_values.reserve(order.size());
     for (const std::uint32_t cell : order) result.cell_values.push_back(scalar.values[cell]);

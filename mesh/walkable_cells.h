@@ -31,8 +31,10 @@ struct WalkableCells {
   std::vector<std::uint32_t> cell_faces;      ///< numbers of faces
   std::vector<float> cell_values;             ///< one a cell where the field is cell-centred
   std::vector<std::uint32_t> original_cells;  ///< empty unless asked for
-  std::vector<BoundaryFace> boundary;         ///< `face` is a number in face_sides
-  std::vector<CornerCell> corner_cells;       ///< for packets of rays; empty unless asked for
+  /// Number here of each of the user's points, kNone where no face uses it; empty unless asked for.
+  std::vector<std::uint32_t> point_numbers;
+  std::vector<BoundaryFace> boundary;    ///< `face` is a number in face_sides
+  std::vector<CornerCell> corner_cells;  ///< for packets of rays; empty unless asked for
   std::vector<Finding> findings;
 
   std::size_t cell_count() const { return cell_begin.size() - 1; }
@@ -54,6 +56,6 @@ struct WalkableCells {
 /// inside, is left out, and is named in `findings`. Requires a mesh of explicit cells that passed
 /// check_structure().
 WalkableCells make_walkable_cells(const Mesh& mesh, const ScalarField& scalar, const Bounds& bounds,
-                                  bool keep_original_cells);
+                                  bool keep_original_cells, bool keep_point_numbers = false);
 
 }  // namespace plume

@@ -68,11 +68,11 @@ void link(std::vector<WalkableTets::Cell>& cells) {
 std::size_t WalkableTets::bytes() const {
   return points.size() * sizeof(WalkablePoint) + cells.size() * sizeof(Cell) +
          cell_values.size() * sizeof(float) + original_cells.size() * sizeof(std::uint32_t) +
-         boundary.size() * sizeof(Boundary);
+         point_numbers.size() * sizeof(std::uint32_t) + boundary.size() * sizeof(Boundary);
 }
 
 WalkableTets make_walkable_tets(const Mesh& mesh, const ScalarField& scalar, const Bounds& bounds,
-                                bool keep_original_cells) {
+                                bool keep_original_cells, bool keep_point_numbers) {
   TetAdjacency adjacency = find_tet_adjacency(mesh, scalar, bounds);
   WalkableTets tets;
   tets.frame = adjacency.frame;
@@ -87,6 +87,7 @@ WalkableTets make_walkable_tets(const Mesh& mesh, const ScalarField& scalar, con
       tets.cell_values.push_back(scalar.values[cell]);
   }
   if (keep_original_cells) tets.original_cells = std::move(adjacency.original);
+  if (keep_point_numbers) tets.point_numbers = std::move(adjacency.numbers);
   return tets;
 }
 

@@ -13,8 +13,8 @@
 
 namespace plume {
 
-/// Immutable, compact, ordered along a Hilbert curve; safe to read from any number of threads. 32
-/// bytes a cell, 16 a point.
+/// Immutable but for its scalars (put_scalars.h), compact, ordered along a Hilbert curve; safe to
+/// read from any number of threads. 32 bytes a cell, 16 a point.
 ///
 /// A cell does not store its points. Who comes in through a face knows three of them, and the link
 /// that was followed brought the fourth, the apex. So the next point and the next cell are fetched
@@ -41,6 +41,8 @@ struct WalkableTets {
   std::vector<float> cell_values;
   /// Number of each cell in the user's mesh; empty unless asked for.
   std::vector<std::uint32_t> original_cells;
+  /// Number here of each of the user's points, kNone where no cell uses it; empty unless asked for.
+  std::vector<std::uint32_t> point_numbers;
   std::vector<Boundary> boundary;
   std::vector<Finding> findings;
 
@@ -56,6 +58,6 @@ struct WalkableTets {
 /// neighbours joined. A face of three and more cells joins the first two and is boundary to the
 /// rest. All of that is in `findings`. Requires a mesh of tetrahedra that passed check_structure().
 WalkableTets make_walkable_tets(const Mesh& mesh, const ScalarField& scalar, const Bounds& bounds,
-                                bool keep_original_cells);
+                                bool keep_original_cells, bool keep_point_numbers = false);
 
 }  // namespace plume

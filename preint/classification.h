@@ -13,8 +13,8 @@ namespace plume {
 /// All of space where the scalar lies in [low, high], as a thing with a look of its own: it depends
 /// neither on its thickness in space nor on its width over the scalar axis.
 struct IntervalVolume {
-  float low = 0;
-  float high = 1;
+  float low = 0;   ///< the scalar at w = 0
+  float high = 1;  ///< the scalar at w = 1
   /// Optics over w = (scalar - low) / (high - low) in [0, 1]; extinction is per unit of w. A ray
   /// that crosses the interval sees 1 - exp(-integral of the extinction over [0, 1]) of it.
   TransferFunction profile;
@@ -22,7 +22,7 @@ struct IntervalVolume {
 
 /// All of space where the scalar has one value: an interval volume of no width.
 struct Isosurface {
-  float value = 0;
+  float value = 0;  ///< of the scalar
   /// Of each crossing, in [0, 1].
   float opacity = 1;
   /// Linear RGB (Rec. 709 primaries), >= 0.
@@ -37,9 +37,9 @@ struct Isosurface {
 ///   a gap between them or touch; where they touch, the common value belongs to the upper one.
 /// - Isosurfaces, at any values, also inside of an interval or at one of its ends.
 struct Classification {
-  std::optional<TransferFunction> volume;
-  std::vector<IntervalVolume> intervals;  ///< in any order
-  std::vector<Isosurface> isosurfaces;    ///< in any order
+  std::optional<TransferFunction> volume;  ///< nothing: no volume is seen
+  std::vector<IntervalVolume> intervals;   ///< in any order
+  std::vector<Isosurface> isosurfaces;     ///< in any order
 
   /// What is wrong, in one line that names the values and the remedy; nothing where all is well:
   /// the volume and the profiles have no problem (see TransferFunction), profiles have their knots

@@ -1,7 +1,5 @@
 #include "plume/preint/closed_form.h"
 
-#include <array>
-#include <cmath>
 #include <cstddef>
 
 #include "plume/preint/psi.h"
@@ -15,34 +13,37 @@ constexpr double invisible = 1e-12;
 
 }  // namespace
 
+PreciseColor integrate_linear(const PreciseOptics& front, const PreciseOptics& back,
+                              double length) {
+  const double a = front.extinction * length;
+  const double b = back.extinction * length;
+  if (a + b == 0) return {};
+  // One colour throughout needs no chi, and is then exact.
+  if (front.color == back.color) {
+    const double alpha = absorbed((a + b) / 2);
+    return {{alpha * front.color[0], alpha * front.color[1], alpha * front.color[2]}, alpha};
+  }
+  const Absorption part = absorption(a, b);
+  PreciseColor color{{}, part.absorbed};
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    color.rgb[channel] = front.color[channel] * part.absorbed +
+                         (back.color[channel] - front.color[channel]) * part.chi;
+  return color;
+}
+
+PreciseColor integrate_linear(const Pieces& pieces, double s_in, double s_out, double length) {
+  PreciseColor color;
+  pieces.walk(s_in, s_out,
+              [&](const PreciseOptics& front, const PreciseOptics& back, double fraction) {
+                color.add_behind(integrate_linear(front, back, fraction * length));
+                return color.alpha < 1 - invisible;
+              });
+  return color;
+}
+
 SegmentColor ClosedForm::integrate(float s_in, float s_out, float length) const {
   if (is_empty_segment(s_in, s_out, length)) return {};
-  std::array<double, 3> radiance{0, 0, 0};
-  double opacity = 0;
-  double transparency = 1;
-  depth_.pieces().walk(
-      s_in, s_out, [&](const PreciseOptics& front, const PreciseOptics& back, double fraction) {
-        const double part_length = fraction * length;
-        const double a = front.extinction * part_length;
-        const double b = back.extinction * part_length;
-        if (a + b == 0) return true;
-        const double absorbed = -std::expm1(-(a + b) / 2);
-        radiance[0] += transparency * front.color[0] * absorbed;
-        radiance[1] += transparency * front.color[1] * absorbed;
-        radiance[2] += transparency * front.color[2] * absorbed;
-        // One colour throughout needs no more, and is then exact.
-        if (front.color != back.color) {
-          const double weight = transparency * chi(a, b);
-          for (std::size_t channel = 0; channel < 3; ++channel) {
-            radiance[channel] += weight * (back.color[channel] - front.color[channel]);
-          }
-        }
-        opacity += transparency * absorbed;
-        transparency *= 1 - absorbed;
-        return transparency > invisible;
-      });
-  return {saturated_float(radiance[0]), saturated_float(radiance[1]), saturated_float(radiance[2]),
-          saturated_float(opacity)};
+  return integrate_linear(depth_.pieces(), s_in, s_out, length).rounded();
 }
 
 }  // namespace plume

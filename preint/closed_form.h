@@ -2,6 +2,7 @@
 #pragma once
 
 #include "plume/preint/optical_depth.h"
+#include "plume/preint/precise_color.h"
 #include "plume/preint/segment_optics.h"
 #include "plume/preint/transfer_function.h"
 
@@ -26,8 +27,10 @@ class ClosedForm {
   /// Requires !transfer_function.problem(). Keeps a copy.
   explicit ClosedForm(const TransferFunction& transfer_function) : depth_(transfer_function) {}
 
+  /// See SegmentIntegrator.
   SegmentColor integrate(float s_in, float s_out, float length) const;
 
+  /// See SegmentIntegrator.
   float optical_depth(float s_in, float s_out, float length) const {
     return depth_(s_in, s_out, length);
   }
@@ -37,5 +40,11 @@ class ClosedForm {
 };
 
 static_assert(SegmentIntegrator<ClosedForm>);
+
+/// The same in double, of a part along which the optics run linearly from `front` to `back`.
+PreciseColor integrate_linear(const PreciseOptics& front, const PreciseOptics& back, double length);
+
+/// The same in double, between two finite scalars.
+PreciseColor integrate_linear(const Pieces& pieces, double s_in, double s_out, double length);
 
 }  // namespace plume

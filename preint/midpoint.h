@@ -17,12 +17,13 @@ class MidpointIntegrator {
   /// Requires !transfer_function.problem() and samples >= 1. Keeps a copy.
   explicit MidpointIntegrator(const TransferFunction& transfer_function, int samples = 1);
 
+  /// See SegmentIntegrator.
   SegmentColor integrate(float s_in, float s_out, float length) const;
 
   /// The optical depth of the same samples, so that alpha = 1 - exp(-optical_depth).
   float optical_depth(float s_in, float s_out, float length) const;
 
-  int samples() const { return samples_; }
+  int samples() const { return samples_; }  ///< of each segment
 
  private:
   Pieces pieces_;

@@ -23,7 +23,7 @@ OpticalDepth::OpticalDepth(Pieces pieces) : pieces_(std::move(pieces)) {
   }
 }
 
-double OpticalDepth::mean_extinction(float s_in, float s_out) const {
+double OpticalDepth::mean_extinction(double s_in, double s_out) const {
   const double low = std::min(s_in, s_out);
   const double high = std::max(s_in, s_out);
   const std::size_t first = pieces_.piece_above(low);

@@ -22,16 +22,16 @@ class OpticalDepth {
   /// Requires !transfer_function.problem().
   explicit OpticalDepth(const TransferFunction& transfer_function)
       : OpticalDepth(Pieces(transfer_function)) {}
-  explicit OpticalDepth(Pieces pieces);
+  explicit OpticalDepth(Pieces pieces);  ///< likewise
 
   /// Mean extinction per unit of length on a segment between two scalars; the same in both
   /// directions. Where they are equal, the extinction there. Requires finite scalars.
-  double mean_extinction(float s_in, float s_out) const;
+  double mean_extinction(double s_in, double s_out) const;
 
   /// Optical depth of a segment; 0 where it is empty (see SegmentIntegrator).
   float operator()(float s_in, float s_out, float length) const;
 
-  const Pieces& pieces() const { return pieces_; }
+  const Pieces& pieces() const { return pieces_; }  ///< of the transfer function
 
  private:
   /// A at a knot as the sum of two doubles, so that what lies between two knots keeps its relative

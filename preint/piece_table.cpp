@@ -14,19 +14,23 @@ PieceTable::PieceTable(const TransferFunction& transfer_function) {
                ? static_cast<float>(std::clamp((b - static_cast<double>(a)) / width, -kMost, kMost))
                : 0.0f;
   };
-  auto add = [&](float low, float high, const Optics& front, const Optics& back) {
+  auto add = [&](float low, float high, const Optics& below, const Optics& above) {
     const double width = static_cast<double>(high) - low;
-    Piece piece{low, high, front.extinction, slope(front.extinction, back.extinction, width), {}, 0,
-                {},  0};
+    const bool falls = above.extinction < below.extinction;
+    const Optics& anchor = falls ? above : below;
+    Piece piece{
+        low, high, anchor.extinction, slope(below.extinction, above.extinction, width), {}, 0,
+        {},  0};
+    if (falls && piece.extinction_slope == 0) piece.extinction_slope = -0.0f;  // of no width
     for (std::size_t c = 0; c < 3; ++c) {
-      piece.color[c] = front.color[c];
-      piece.color_slope[c] = slope(front.color[c], back.color[c], width);
+      piece.color[c] = anchor.color[c];
+      piece.color_slope[c] = slope(below.color[c], above.color[c], width);
     }
     pieces.push_back(piece);
   };
-  // Not from -infinity: the distance to low is multiplied by a slope of zero.
-  add(std::numeric_limits<float>::lowest(), knots.front().scalar, knots.front().optics,
+  add(-std::numeric_limits<float>::infinity(), knots.front().scalar, knots.front().optics,
       knots.front().optics);
+  pieces.front().extinction_slope = -0.0f;
   for (std::size_t i = 0; i + 1 < knots.size(); ++i)
     add(knots[i].scalar, knots[i + 1].scalar, knots[i].optics, knots[i + 1].optics);
   add(knots.back().scalar, std::numeric_limits<float>::infinity(), knots.back().optics,

@@ -9,8 +9,11 @@
 namespace plume {
 
 /// Piece i covers the scalars from low to high; before the first knot and behind the last lie
-/// pieces without end on which nothing changes. With r = scalar - low, extinction is extinction +
-/// r * extinction_slope, and each colour likewise. A step is a piece of no width.
+/// pieces without end on which nothing changes. Numbers count from the piece's anchor: its end of
+/// less extinction, which is `high` where extinction_slope has a sign (a negative zero is for the
+/// piece that has no low end), else `low`. With r = scalar - anchor, extinction is extinction + r *
+/// extinction_slope, a sum in which nothing cancels, and each colour likewise. A step is a piece of
+/// no width.
 struct PieceTable {
   /// Three times four floats, so that a lane's is fetched with three loads.
   struct Piece {

@@ -43,6 +43,16 @@ std::size_t Pieces::piece_below(double scalar) const {
   return static_cast<std::size_t>(not_below - scalars_.begin()) - 1;
 }
 
+PreciseOptics Pieces::slope(std::size_t piece) const {
+  const PreciseOptics& below = optics_[piece];
+  const PreciseOptics& above = optics_[piece + 1];
+  PreciseOptics result;
+  result.extinction = (above.extinction - below.extinction) * inverse_widths_[piece];
+  for (std::size_t channel = 0; channel < 3; ++channel)
+    result.color[channel] = (above.color[channel] - below.color[channel]) * inverse_widths_[piece];
+  return result;
+}
+
 PreciseOptics Pieces::at(std::size_t piece, double scalar) const {
   const double weight_below = (scalars_[piece + 1] - scalar) * inverse_widths_[piece];
   const double weight_above = (scalar - scalars_[piece]) * inverse_widths_[piece];

@@ -12,8 +12,8 @@ namespace plume {
 
 /// Optics in double precision, so that sums over many pieces are good to the last bit of a float.
 struct PreciseOptics {
-  double extinction = 0;
-  std::array<double, 3> color{0, 0, 0};
+  double extinction = 0;                 ///< as Optics::extinction
+  std::array<double, 3> color{0, 0, 0};  ///< as Optics::color
 };
 
 /// The knots with one more far below and one far above them, which makes the constant ends of a
@@ -28,8 +28,9 @@ class Pieces {
   /// Requires !transfer_function.problem().
   explicit Pieces(const TransferFunction& transfer_function);
 
-  std::size_t knot_count() const { return scalars_.size(); }
-  double scalar(std::size_t knot) const { return scalars_[knot]; }
+  std::size_t knot_count() const { return scalars_.size(); }        ///< the two far ones included
+  double scalar(std::size_t knot) const { return scalars_[knot]; }  ///< of a knot
+  /// At a knot.
   const PreciseOptics& optics(std::size_t knot) const { return optics_[knot]; }
 
   /// The piece that a scalar enters when it rises from `scalar`; also where `scalar` itself lies,
@@ -41,6 +42,9 @@ class Pieces {
 
   /// Optics at a scalar inside a piece or at its ends.
   PreciseOptics at(std::size_t piece, double scalar) const;
+
+  /// What the optics of a piece change by per unit of the scalar; 0 inside a step.
+  PreciseOptics slope(std::size_t piece) const;
 
   /// Optics at a finite scalar.
   PreciseOptics at(double scalar) const { return at(piece_above(scalar), scalar); }

@@ -5,14 +5,15 @@
 
 namespace plume {
 
-ScalarPolynomial::ScalarPolynomial(const std::array<double, 4>& coefficient, float first,
-                                   float last, float largest)
+ScalarPolynomial::ScalarPolynomial(int degree, const std::array<double, 4>& coefficient,
+                                   float first, float last, double largest)
     : coefficient_(coefficient),
       first_(first),
       last_(last),
+      degree_(degree),
       // Each value is off by half a unit in its last place, 2^-24 of it; the second derivative by
       // at most 9 (2 + 5 + 4 + 1) = 108 times that, a chord by an eighth of it.
-      rounding_(13.5 * 0x1p-24 * static_cast<double>(largest)),
+      rounding_(13.5 * 0x1p-24 * largest),
       finite_(std::isfinite(largest)) {
   if (!finite_) return;
   // a u^2 + 2 b u + c, by the formula that does not cancel. A root of even order is no extremum.
@@ -29,9 +30,9 @@ ScalarPolynomial::ScalarPolynomial(const std::array<double, 4>& coefficient, flo
 namespace {
 
 // The largest absolute value, or what is not finite.
-float largest_of(std::initializer_list<float> values) {
-  float largest = 0;
-  for (const float value : values) {
+double largest_of(std::initializer_list<double> values) {
+  double largest = 0;
+  for (const double value : values) {
     if (!std::isfinite(value)) return value;
     largest = std::max(largest, std::abs(value));
   }
@@ -40,11 +41,19 @@ float largest_of(std::initializer_list<float> values) {
 
 }  // namespace
 
-ScalarPolynomial ScalarPolynomial::quadratic(float first, float middle, float last) {
-  const double s0 = first, s1 = middle, s2 = last;
-  const double d01 = 2 * (s1 - s0), d12 = 2 * (s2 - s1);
+ScalarPolynomial ScalarPolynomial::linear(float first, float last) {
+  return {
+      1, {first, static_cast<double>(last) - first, 0, 0}, first, last, largest_of({first, last})};
+}
+
+ScalarPolynomial ScalarPolynomial::quadratic(double first, double middle, double last) {
+  const double d01 = 2 * (middle - first), d12 = 2 * (last - middle);
   const double d012 = d12 - d01;
-  return {{s0, d01 - d012 / 2, d012, 0}, first, last, largest_of({first, middle, last})};
+  return {2,
+          {first, d01 - d012 / 2, d012, 0},
+          static_cast<float>(first),
+          static_cast<float>(last),
+          largest_of({first, middle, last})};
 }
 
 ScalarPolynomial ScalarPolynomial::cubic(float first, float third, float two_thirds, float last) {
@@ -52,7 +61,8 @@ ScalarPolynomial ScalarPolynomial::cubic(float first, float third, float two_thi
   const double d01 = 3 * (s1 - s0), d12 = 3 * (s2 - s1), d23 = 3 * (s3 - s2);
   const double d012 = 1.5 * (d12 - d01), d123 = 1.5 * (d23 - d12);
   const double d0123 = d123 - d012;
-  return {{s0, d01 - d012 / 3 + 2 * d0123 / 9, d012 - d0123, d0123},
+  return {3,
+          {s0, d01 - d012 / 3 + 2 * d0123 / 9, d012 - d0123, d0123},
           first,
           last,
           largest_of({first, third, two_thirds, last})};

@@ -9,7 +9,7 @@
 
 namespace plume {
 
-/// A polynomial of degree 2 or 3 over the share u in [0, 1] of a segment, through equidistant
+/// A polynomial of degree 1 to 3 over the share u in [0, 1] of a segment, through equidistant
 /// values, by divided differences: Ament, Weiskopf and Carr, "Direct Interval Volume Visualization"
 /// (TVCG 2010), equations 19 to 26. It goes through the values to within a few units in the last
 /// place of the largest of them.
@@ -17,23 +17,38 @@ namespace plume {
 /// NaN or infinite values make a polynomial that is transparent: one piece from NaN to NaN.
 class ScalarPolynomial {
  public:
+  /// Through values at 0 and 1.
+  static ScalarPolynomial linear(float first, float last);
   /// Through values at 0, 1/2 and 1.
-  static ScalarPolynomial quadratic(float first, float middle, float last);
+  static ScalarPolynomial quadratic(double first, double middle, double last);
   /// Through values at 0, 1/3, 2/3 and 1.
   static ScalarPolynomial cubic(float first, float third, float two_thirds, float last);
 
+  /// The value at a share u of the way.
   double operator()(double u) const {
     return coefficient_[0] + u * (coefficient_[1] + u * (coefficient_[2] + u * coefficient_[3]));
   }
 
+  /// What it was made as: its coefficients may be those of a lower degree.
+  int degree() const { return degree_; }
+
+  /// Whether all values are finite.
+  bool is_finite() const { return finite_; }
+
+  /// Of powers of u, ascending.
+  const std::array<double, 4>& coefficients() const { return coefficient_; }
+
   /// The places in ascending order where the derivative changes sign, strictly between 0 and 1: at
   /// most two.
   struct Extrema {
-    std::array<double, 2> places{};
-    std::size_t size = 0;
+    std::array<double, 2> places{};  ///< ascending
+    std::size_t size = 0;            ///< how many there are
+    /// The first.
     const double* begin() const { return places.data(); }
+    /// Beyond the last.
     const double* end() const { return places.data() + size; }
   };
+  /// See Extrema.
   const Extrema& extrema() const { return extrema_; }
 
   /// The greatest value on [0, 1]. NaN is passed over; NaN where both ends are.
@@ -91,11 +106,33 @@ class ScalarPolynomial {
     return part(1, last_);
   }
 
+  /// Cuts [0, 1] evenly into as many pieces as make a cubic differ from the quadratic through a
+  /// piece's ends and its middle by at most `tolerance`, in the scalar's unit, but into no more
+  /// than kMostPieces; one piece for lower degrees. With c the coefficient of u^3 and h a piece's
+  /// width the difference is c v (v - h/2) (v - h), at most |c| h^3 / (12 sqrt(3)). Calls
+  ///     visit(const ScalarPolynomial& quadratic, double share)
+  /// for each piece in turn, `share` being its width, until it returns false; returns whether all
+  /// were visited.
+  template <class Visit>
+  bool for_each_quadratic_piece(double tolerance, Visit&& visit) const {
+    const double needed =
+        std::ceil(std::cbrt(std::abs(coefficient_[3]) / (12 * std::sqrt(3.0)) / tolerance));
+    const int pieces = needed < kMostPieces ? std::max(1, static_cast<int>(needed)) : kMostPieces;
+    for (int i = 0; i < pieces; ++i) {
+      const double share = 1.0 / pieces;
+      if (!visit(quadratic((*this)(i * share), (*this)((i + 0.5) * share),
+                           i + 1 == pieces ? last_ : (*this)((i + 1) * share)),
+                 share))
+        return false;
+    }
+    return true;
+  }
+
  private:
   static constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 
-  ScalarPolynomial(const std::array<double, 4>& coefficient, float first, float last,
-                   float largest);
+  ScalarPolynomial(int degree, const std::array<double, 4>& coefficient, float first, float last,
+                   double largest);
 
   // How far the polynomial may be from its chord between two places.
   double bend(double from, double to) const {
@@ -106,6 +143,7 @@ class ScalarPolynomial {
 
   std::array<double, 4> coefficient_;
   float first_, last_;
+  int degree_;
   double rounding_;
   bool finite_;
   Extrema extrema_;

@@ -4,7 +4,8 @@
 #   documentation.sh SOURCE BUILD PAGE
 #
 # `./dev test` is not run again: it is what runs this. Blocks that name $PLUME_DATASETS are skipped,
-# loudly, where there is no such directory.
+# loudly, where there is no such directory, and blocks that turn an option PLUME_WITH_... on where the
+# build has it off: it is not for a test to change its licence.
 set -euo pipefail
 source_dir=$1 build_dir=$2 page=$3
 work=$(mktemp -d)
@@ -23,11 +24,21 @@ for block in $(ls block* | sort -V); do
     cat "$block"
     continue
   fi
+  missing=""
+  for option in $(grep -o 'PLUME_WITH_[A-Z]*' "$block" | sort -u); do
+    grep -q "^$option:BOOL=ON" build/CMakeCache.txt || missing+=" $option"
+  done
+  if [ -n "$missing" ]; then
+    echo "SKIPPED: the build is without$missing for:"
+    cat "$block"
+    continue
+  fi
   echo "--- $(cat "$block")"
   bash -euo pipefail "$block"
   ran=$((ran + 1))
 done
 [ $ran -gt 0 ] || { echo "no commands found in $page" >&2; exit 1; }
+shopt -s nullglob
 for picture in *.png; do
   [ -s "$picture" ] || { echo "$picture is empty" >&2; exit 1; }
 done

@@ -23,6 +23,8 @@ preint preint
 traverse mesh
 lib mesh|traverse|preint
 io lib|mesh
+capi lib
+python lib
 datasets mesh
 ORDER
   return $bad
@@ -31,12 +33,13 @@ ORDER
 if [ "${1:-}" = --self-test ]; then
   house=$(mktemp -d)
   trap 'rm -rf "$house"' EXIT
-  mkdir "$house"/{mesh,preint,lib,io}
+  mkdir "$house"/{mesh,preint,lib,io,capi,python}
   echo '#include "plume/mesh/mesh.h"' >"$house/lib/a.h"
   echo '#include <vtkCell.h>' >"$house/io/a.cpp"
   check "$house" >/dev/null || { echo "a sound house was refused" >&2; exit 1; }
   for offence in 'mesh #include "plume/lib/a.h"' 'preint #include <plume/mesh/mesh.h>' \
-    'lib #include <vtkCell.h>' 'mesh #include "../lib/a.h"' 'io #include "plume/traverse/ray.h"'; do
+    'lib #include <vtkCell.h>' 'mesh #include "../lib/a.h"' 'io #include "plume/traverse/ray.h"' \
+    'capi #include "plume/mesh/mesh.h"' 'python #include "plume/io/read_mesh.h"'; do
     folder=${offence%% *}
     echo "${offence#* }" >"$house/$folder/b.h"
     if check "$house" >/dev/null; then

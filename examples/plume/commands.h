@@ -8,5 +8,6 @@ namespace plume::command {
 void add_render(CLI::App& app);
 void add_info(CLI::App& app);
 void add_generate(CLI::App& app);
+void add_tetrahedralize(CLI::App& app);
 
 }  // namespace plume::command

@@ -9,7 +9,8 @@
 
 #include "commands.h"
 #include "console.h"
-#include "plume/io/read_mesh.h"
+#include "planned_frames.h"
+#include "plume/io/time_series.h"
 #include "plume/lib/plume.h"
 #include "plume/mesh/explicit_cells.h"
 #include "plume/mesh/validate.h"
@@ -21,7 +22,7 @@ using nlohmann::json;
 
 struct InfoArguments {
   std::string mesh, solution;
-  int time_step = -1;
+  std::string time;
   bool merge_points = false, as_json = false;
 };
 
@@ -78,6 +79,14 @@ void print(const std::string& file, const json& info) {
   };
   auto number = [](const json& value) { return with_separators(value.get<std::size_t>()); };
   line("file", file);
+  if (info.contains("times")) {
+    const json& times = info["times"];
+    std::string text = number(times.size());
+    if (times.front().is_number() && times.back().is_number())
+      text += fmt::format(", time {:g} to {:g}", times.front().get<double>(),
+                          times.back().get<double>());
+    line("steps", text + fmt::format("; this is step {}", number(info["step"])));
+  }
   line("cells", number(info["cells"]));
   for (const auto& [type, count] : info["cells_by_type"].items())
     line("", fmt::format("{} {}", number(count), type));
@@ -114,15 +123,26 @@ void run(const InfoArguments& args) {
   ReadOptions options;
   options.solution = args.solution;
   options.merge_points = args.merge_points;
-  if (args.time_step >= 0) options.time_step = args.time_step;
   std::vector<std::string> notices;
-  const Mesh mesh =
-      read_mesh(args.mesh, options, [&](const std::string& line) { notices.push_back(line); });
+  const Notice notice = [&](const std::string& line) { notices.push_back(line); };
+  TimeSeries series(args.mesh, options, notice);
+  const std::vector<std::size_t> steps = parse_steps(args.time, series, args.mesh);
+  if (steps.size() != 1)
+    throw Error(fmt::format("--time '{}': info is of one step; give its number", args.time));
+  const auto [mesh, time] = series.read(steps[0], notice);
   json info;
   try {
     info = describe_mesh(mesh, std::move(notices));
   } catch (const Error& error) {
     throw Error(args.mesh + ": " + error.what());
+  }
+  if (series.size() > 1) {
+    info["step"] = steps[0];
+    info["times"] = json::array();
+    for (std::size_t step = 0; step < series.size(); ++step) {
+      const auto known = step == steps[0] ? time : series.time(step);
+      info["times"].push_back(known ? json(*known) : json());
+    }
   }
   if (args.as_json)
     std::cout << info.dump(2) << '\n';
@@ -137,8 +157,8 @@ void add_info(CLI::App& app) {
   CLI::App* command = app.add_subcommand("info", "Say what is in a mesh file");
   command->add_option("mesh", args->mesh, "The mesh file")->required();
   command->add_option("--solution", args->solution, "Plot3D: the q file of the grid");
-  command->add_option("--time-step", args->time_step, "Which step of several, from 0 (the last)")
-      ->check(CLI::NonNegativeNumber);
+  command->add_option("--time,--time-step", args->time,
+                      "Which step of several: last, or a number from 0 (last)");
   command->add_flag("--merge-points", args->merge_points,
                     "Merge coincident points of neighbouring blocks");
   command->add_flag("--json", args->as_json, "Print one JSON object");

@@ -7,16 +7,18 @@
 #include <new>
 
 #include "commands.h"
+#include "plume/lib/version.h"
 #include "plume/mesh/error.h"
 
 int main(int argc, char** argv) {
   CLI::App app{"Ray tracing through unstructured volume meshes"};
   app.name("plume");
-  app.set_version_flag("--version", PLUME_VERSION);
+  app.set_version_flag("--version", plume::version());
   app.require_subcommand(1);
   plume::command::add_render(app);
   plume::command::add_info(app);
   plume::command::add_generate(app);
+  plume::command::add_tetrahedralize(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {  // --help, --version

@@ -20,10 +20,15 @@ Mode mode_named(const std::string& name) {
 }
 
 void add_render_options(CLI::App& command, RenderArguments& args) {
-  command.add_option("mesh", args.mesh, "The mesh: .vtu .vtk .vts .cgns .case .foam .ex2 ...")
+  command
+      .add_option("mesh", args.mesh,
+                  "The mesh: .vtu .vtk .vts .cgns .case .foam .ex2 ..., or several by a pattern "
+                  "in quotes: 'flow_*.vtu', 'flow_%04d.vtu'")
       ->required();
   command.add_option("--solution", args.solution, "Plot3D: the q file of the grid");
-  command.add_option("-o,--output", args.output, "The picture: .png or .exr (picture.png)");
+  command.add_option("-o,--output", args.output,
+                     "The picture: .png or .exr; of several, with a place for their number from "
+                     "0, such as frame_%04d.png (picture.png)");
   command.add_option("--field", args.field,
                      "What to show: NAME, NAME:component or NAME:magnitude (the active field)");
   command.add_option("--association", args.association, "Where a name is on both: point or cell")
@@ -32,8 +37,11 @@ void add_render_options(CLI::App& command, RenderArguments& args) {
       .add_option("--cell-data", args.cell_data,
                   "Values of cells: constant in each, or averaged to the points (constant)")
       ->check(CLI::IsMember(names_of(kCellData)));
-  command.add_option("--time-step", args.time_step, "Which step of several, from 0 (the last)")
-      ->check(CLI::NonNegativeNumber);
+  command.add_option("--time,--time-step", args.time,
+                     "Which steps: all, last, a number from 0, or FIRST:LAST[:STRIDE] (last)");
+  command.add_flag("--no-read-ahead", args.no_read_ahead,
+                   "Read a step when it is needed, not while the one before is rendered: holds one "
+                   "mesh instead of two");
   command.add_flag("--merge-points", args.merge_points,
                    "Merge coincident points of neighbouring blocks");
   command.add_option("--size", args.size, "Pixels: WIDTHxHEIGHT (1024x768)");
@@ -45,6 +53,11 @@ void add_render_options(CLI::App& command, RenderArguments& args) {
       ->excludes(view);
   command.add_option("--azimuth", args.azimuth, "Turn the camera around view up, degrees");
   command.add_option("--elevation", args.elevation, "Turn the camera upwards, degrees");
+  command
+      .add_option("--orbit", args.orbit,
+                  "Turn the camera once around view up in so many frames, over which time steps, "
+                  "where there are several, are spread")
+      ->check(CLI::PositiveNumber);
   command.add_option("--zoom", args.zoom, "Enlarge by this factor (1)");
   command.add_option("--view-angle", args.view_angle, "Degrees, bottom to top (30)");
   command.add_flag("--parallel", args.parallel, "Parallel projection");
@@ -82,6 +95,16 @@ void add_render_options(CLI::App& command, RenderArguments& args) {
       ->allow_extra_args(false);
   command.add_option("--clip-box", args.clip_box,
                      "Keep what is inside of a box: X0,Y0,Z0,X1,Y1,Z1");
+  command
+      .add_option("--surface", args.surfaces,
+                  "An opaque surface in the scene: FILE[:R,G,B], .stl .ply .obj .vtp ... "
+                  "(repeatable)")
+      ->allow_extra_args(false);
+  command
+      .add_option("--wall", args.walls,
+                  "A side of the grid as an opaque surface: imin imax jmin jmax kmin kmax, and "
+                  ":R,G,B where wanted (repeatable)")
+      ->allow_extra_args(false);
   command.add_flag("--no-volume", args.no_volume, "Isosurfaces and intervals alone");
   command
       .add_option("--interval-form", args.interval_form,
@@ -92,15 +115,29 @@ void add_render_options(CLI::App& command, RenderArguments& args) {
                   "volume; one number a ray: mip, minip, average, integral, optical-depth, depth "
                   "or cells (volume)")
       ->check(CLI::IsMember(mode_names()));
-  command.add_option("--integrator", args.integrator, "closed-form, table or midpoint")
+  command.add_option(
+      "--gray-range", args.gray_range,
+      "Modes integral, optical-depth, depth and cells: what shades of gray run over, "
+      "LOW,HIGH (what the first picture holds)");
+  command
+      .add_option("--integrator", args.integrator,
+                  "closed-form, table, table2 (of second order, for --order 2 and 3), midpoint or "
+                  "reference (closed-form)")
       ->check(CLI::IsMember(names_of(kIntegrators)));
   command.add_option("--samples", args.samples, "Samples a segment, for midpoint (1)")
       ->check(CLI::PositiveNumber);
   command
-      .add_option("--order", args.order,
-                  "The scalar inside of a cell: 1 linear, 2 quadratic, 3 cubic; tetrahedra are "
-                  "linear (1)")
+      .add_option(
+          "--order", args.order,
+          "The scalar inside of a cell: 1 linear, 2 quadratic, 3 cubic, adaptive as close as "
+          "can be; tetrahedra are linear (1)")
       ->check(CLI::IsMember(names_of(kOrders)));
+  command
+      .add_option(
+          "--tolerance", args.tolerance,
+          "The greatest error of a linear RGBA channel, 0 for the reference: chooses order, "
+          "integrator and early termination, but what is given")
+      ->check(CLI::Range(0.0, 0.999));
   command
       .add_option("--early-termination", args.early_termination,
                   "Transmittance at which a ray ends (1e-4)")

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,28 +15,34 @@ namespace plume::command {
 struct RenderArguments {
   std::string mesh, solution, output = "picture.png", field, association, size = "1024x768";
   std::string view = "iso", camera, transfer_function, transfer_range, mode = "volume";
-  std::string integrator = "closed-form", order = "1", cell_data = "constant", background = "white",
-              stats;
+  std::string integrator, order, cell_data = "constant", background = "white", stats;
   std::string interval_form = "exponential";
-  std::vector<std::string> channels, isosurfaces, intervals, lights, clip_planes;
-  std::string material, clip_box;
+  std::vector<std::string> channels, isosurfaces, intervals, lights, clip_planes, surfaces, walls;
+  std::string material, clip_box, time, gray_range;
   double azimuth = 0, elevation = 0, zoom = 1, opacity_scale = 1, view_angle = 0;
-  double unit_distance = 0, early_termination = RenderSettings{}.early_termination;
-  int time_step = -1, samples = 1, threads = 0, bits = 8;
+  double unit_distance = 0;
+  std::optional<double> early_termination, tolerance;
+  int orbit = 0, samples = 1, threads = 0, bits = 8;
   bool no_volume = false, parallel = false, merge_points = false, quiet = false, verbose = false;
+  bool no_read_ahead = false;
 };
 
 /// Names on the command line and what they stand for.
 inline const std::vector<std::pair<std::string, IntegratorKind>> kIntegrators{
     {"closed-form", IntegratorKind::closed_form},
     {"table", IntegratorKind::table},
-    {"midpoint", IntegratorKind::midpoint}};
+    {"table2", IntegratorKind::second_order_table},
+    {"midpoint", IntegratorKind::midpoint},
+    {"reference", IntegratorKind::reference}};
 inline const std::vector<std::pair<std::string, CellData>> kCellData{
     {"constant", CellData::constant}, {"averaged", CellData::averaged}};
 inline const std::vector<std::pair<std::string, IntervalForm>> kIntervalForms{
     {"exponential", IntervalForm::exponential}, {"linear", IntervalForm::linear}};
 inline const std::vector<std::pair<std::string, ScalarOrder>> kOrders{
-    {"1", ScalarOrder::linear}, {"2", ScalarOrder::quadratic}, {"3", ScalarOrder::cubic}};
+    {"1", ScalarOrder::linear},
+    {"2", ScalarOrder::quadratic},
+    {"3", ScalarOrder::cubic},
+    {"adaptive", ScalarOrder::adaptive}};
 
 template <class T>
 std::vector<std::string> names_of(const std::vector<std::pair<std::string, T>>& choices) {

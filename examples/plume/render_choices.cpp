@@ -3,13 +3,22 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <filesystem>
 
 #include "parse.h"
 #include "plume/io/color_map_file.h"
+#include "plume/lib/render_modes.h"
 #include "surface_options.h"
 
 namespace plume::command {
+
+bool is_color_map_file(const std::string& transfer_function) {
+  return !transfer_function.empty() && !preset(transfer_function) &&
+         std::filesystem::exists(transfer_function);
+}
 
 void choose_transfer_function(Scene& scene, const RenderArguments& args, const Console& console) {
   ColorMap map = scene.default_color_map();
@@ -20,7 +29,7 @@ void choose_transfer_function(Scene& scene, const RenderArguments& args, const C
       colors = rescaled(*colors, map.colors.front().x, map.colors.back().x);
       colors->opacities = map.opacities;
       map = *colors;
-    } else if (std::filesystem::exists(args.transfer_function)) {
+    } else if (is_color_map_file(args.transfer_function)) {
       map = read_color_map(args.transfer_function);
     } else {
       throw Error(fmt::format("--tf '{}': neither a file nor a preset; the presets are: {}",
@@ -80,6 +89,21 @@ void choose_light_and_clip(const RenderArguments& args, RenderSettings& settings
   settings.lighting = lighting;
 }
 
+void choose_gray_range(const RenderArguments& args, RenderSettings& settings) {
+  if (args.gray_range.empty()) return;
+  const auto range = parse_numbers("--gray-range", args.gray_range, {2});
+  const std::array<float, 2> gray{static_cast<float>(range[0]), static_cast<float>(range[1])};
+  if (!(gray[0] < gray[1]))
+    throw Error(fmt::format("--gray-range '{}': the first number must be below the second",
+                            args.gray_range));
+  const ShadeBy shade = in_words(settings.mode).shade;
+  if (shade != ShadeBy::gray_from_zero && shade != ShadeBy::gray_near_is_white)
+    throw Error(
+        fmt::format("--gray-range '{}': mode {} has colours; --tf-range says what they run over",
+                    args.gray_range, args.mode));
+  settings.gray_range = gray;
+}
+
 void choose_classification(Scene& scene, const RenderArguments& args, const Console& console) {
   if (args.no_volume && args.isosurfaces.empty() && args.intervals.empty())
     throw Error("--no-volume leaves nothing to see; add an --iso or an --interval");
@@ -104,6 +128,34 @@ void choose_classification(Scene& scene, const RenderArguments& args, const Cons
   scene.set_classification(std::move(classification));
 }
 
+namespace {
+
+// Moves the camera away, and widens its parallel projection, until each view of the orbit sees all
+// of the bounds.
+void fit_orbit(Camera& camera, const Bounds& bounds, const RenderArguments& args,
+               double aspect_ratio) {
+  const auto arm_of = [](const Camera& from) {
+    std::array<double, 3> arm{};
+    for (std::size_t a = 0; a < 3; ++a) arm[a] = from.position[a] - from.focal_point[a];
+    return arm;
+  };
+  const auto length = [](const std::array<double, 3>& v) { return std::hypot(v[0], v[1], v[2]); };
+  double distance = 0, scale = 0;
+  for (int frame = 0; frame < args.orbit; ++frame) {
+    const Camera view = turned(camera, args, 360.0 * frame / args.orbit);
+    const auto arm = arm_of(view);
+    Camera fitted = fitted_camera(bounds, {-arm[0], -arm[1], -arm[2]}, view.view_up, aspect_ratio);
+    distance = std::max(distance, length(arm_of(fitted)));
+    scale = std::max(scale, fitted.parallel_scale);
+  }
+  const auto arm = arm_of(camera);
+  for (std::size_t a = 0; a < 3; ++a)
+    camera.position[a] = camera.focal_point[a] + distance / length(arm) * arm[a];
+  camera.parallel_scale = scale;
+}
+
+}  // namespace
+
 Camera choose_camera(const Bounds& bounds, const RenderArguments& args, double aspect_ratio) {
   Camera camera = named_view(args.view, bounds, aspect_ratio);
   if (!args.camera.empty()) {
@@ -115,7 +167,17 @@ Camera choose_camera(const Bounds& bounds, const RenderArguments& args, double a
   camera.parallel = args.parallel;
   if (args.view_angle != 0) camera.view_angle = args.view_angle;
   orbit(camera, args.azimuth, args.elevation);
+  if (args.orbit > 0 && args.camera.empty()) fit_orbit(camera, bounds, args, aspect_ratio);
   zoom(camera, args.zoom);
+  return camera;
+}
+
+Camera turned(const Camera& first, const RenderArguments& args, double turn) {
+  Camera camera = first;
+  if (turn == 0) return camera;
+  // Down to where view up was chosen, around, and up again: the horizon stays where it is.
+  orbit(camera, 0, -args.elevation);
+  orbit(camera, turn, args.elevation);
   return camera;
 }
 

@@ -9,15 +9,26 @@
 
 namespace plume::command {
 
+/// Whether --tf names a file, which has a range of its own, and not a preset.
+bool is_color_map_file(const std::string& transfer_function);
+
 void choose_transfer_function(Scene& scene, const RenderArguments& args, const Console& console);
 
 /// Light and clip planes need no mesh: what is wrong with them is said before a long read.
 void choose_light_and_clip(const RenderArguments& args, RenderSettings& settings);
 
+/// Needs no mesh either. Requires that the mode is set.
+void choose_gray_range(const RenderArguments& args, RenderSettings& settings);
+
 /// Adds isosurfaces and intervals to what the transfer function shows.
 void choose_classification(Scene& scene, const RenderArguments& args, const Console& console);
 
+/// The camera of the first frame. Fitted to the bounds, or to all ways in which an orbit sees them,
+/// unless its position is given.
 Camera choose_camera(const Bounds& bounds, const RenderArguments& args, double aspect_ratio);
+
+/// That camera `turn` degrees further about view up, as it was before any elevation.
+Camera turned(const Camera& first, const RenderArguments& args, double turn);
 
 void choose_background(const std::string& text, ImageFileOptions& options);
 

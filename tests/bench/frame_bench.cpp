@@ -8,6 +8,7 @@
 #include "plume/tests/bench/hexahedra_frames.h"
 #include "plume/tests/bench/peer_frames.h"
 #include "plume/tests/bench/thread_scaling.h"
+#include "plume/tests/bench/tolerance_frames.h"
 
 namespace {
 
@@ -18,6 +19,7 @@ constexpr const char* kHelp = R"(plume_frame_bench: whole frames, from the rays 
   --hexahedra      the blunt fin as hexahedra against tetrahedra; orders 1, 2 and 3; beside the
                    thesis' frames
                    all where none is asked for
+  --tolerance      what is asked for, what the planner chooses, and what that comes to, in all modes
   --rounds=N       how many frames each (5, with two threads 7); medians are reported
   --size=N         pixels along each side (512, with two threads 1024)
   --pictures=DIR   writes the pictures that are compared with VTK's, as PNG files
@@ -34,7 +36,7 @@ bool take(const std::string& argument, const std::string& name, int& value) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool peers = false, threads = false, hexahedra = false;
+  bool peers = false, threads = false, hexahedra = false, tolerance = false;
   int rounds = 0, size = 0;
   std::string pictures;
   for (int i = 1; i < argc; ++i) {
@@ -45,6 +47,8 @@ int main(int argc, char** argv) {
       threads = true;
     else if (argument == "--hexahedra")
       hexahedra = true;
+    else if (argument == "--tolerance")
+      tolerance = true;
     else if (argument.rfind("--pictures=", 0) == 0)
       pictures = argument.substr(11);
     else if (!take(argument, "--rounds=", rounds) && !take(argument, "--size=", size)) {
@@ -52,7 +56,8 @@ int main(int argc, char** argv) {
       return argument == "--help" ? 0 : 2;
     }
   }
-  if (!peers && !threads && !hexahedra) peers = threads = hexahedra = true;
+  if (!peers && !threads && !hexahedra && !tolerance)
+    peers = threads = hexahedra = tolerance = true;
   plume::bench::PeerFrameOptions peer_options;
   plume::bench::HexahedraFrameOptions hexahedra_options;
   plume::bench::ThreadScalingOptions thread_options;
@@ -68,6 +73,8 @@ int main(int argc, char** argv) {
       good = plume::bench::compare_orders(hexahedra_options) && good;
       plume::bench::compare_with_thesis_frames(hexahedra_options);
     }
+    if (tolerance)
+      good = plume::bench::check_tolerances(size > 0 ? size : 256, rounds > 0 ? rounds : 3) && good;
     return good ? 0 : 1;
   } catch (const plume::Error& error) {
     std::fprintf(stderr, "plume_frame_bench: %s\n", error.what());

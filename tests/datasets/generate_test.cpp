@@ -110,10 +110,10 @@ INSTANTIATE_TEST_SUITE_P(Generators, EveryGenerator, testing::ValuesIn(names()),
                          });
 
 TEST(Generate, NamesAreTheExpectedOnes) {
-  EXPECT_EQ(names(), (std::vector<std::string>{"blunt-body", "box-tetrahedra", "box-hexahedra",
-                                               "box-rectilinear", "box-wedges", "box-mixed",
-                                               "box-polyhedra", "twisted", "o-grid", "sphere",
-                                               "ball-tetrahedra", "two-blocks", "nested-shell"}));
+  EXPECT_EQ(names(), (std::vector<std::string>{
+                         "blunt-body", "box-tetrahedra", "box-hexahedra", "box-rectilinear",
+                         "box-wedges", "box-mixed", "box-polyhedra", "twisted", "o-grid", "sphere",
+                         "ball-tetrahedra", "two-blocks", "nested-shell", "vortex-street"}));
 }
 
 TEST(Generate, RefusesWhatItCannotMake) {
@@ -415,6 +415,38 @@ TEST(Generate, NestedShellHasItsShells) {
   // Air in the corner, brain in the middle.
   EXPECT_EQ(f.values.at<float>(0), 0);
   EXPECT_NEAR(f.values.at<double>(16 + 33 * (16 + 33 * 16)), 0.5, 1e-5);
+}
+
+// Half a period later, the wake is its mirror image; a whole one later, itself. Its grid stays.
+TEST(VortexStreet, ShedsFromBothSidesInTurn) {
+  GenerateOptions options = of_size(12);
+  const double period = generator_named("vortex-street").period;
+  for (const double time : {0.0, 0.7, 3.9}) {
+    options.time = time;
+    const Mesh now = generate("vortex-street", options);
+    options.time = time + period;
+    const Mesh again = generate("vortex-street", options);
+    options.time = time + period / 2;
+    const Mesh mirrored = generate("vortex-street", options);
+    EXPECT_TRUE(same(now.points, mirrored.points));
+    const Array &a = field(now, "vorticity").values, &b = field(again, "vorticity").values,
+                &m = field(mirrored, "vorticity").values;
+    const auto [ni, nj, nk] = now.dimensions;
+    float greatest = 0;
+    for (std::int64_t k = 0; k < nk; ++k)
+      for (std::int64_t j = 0; j < nj; ++j)
+        for (std::int64_t i = 0; i < ni; ++i) {
+          const auto p = static_cast<std::size_t>(i + ni * (j + nj * k));
+          const auto q = static_cast<std::size_t>(i + ni * (nj - 1 - j + nj * k));
+          // Values are of the order of 1, in single precision.
+          ASSERT_NEAR(a.at<float>(p), b.at<float>(p), 1e-5);
+          ASSERT_NEAR(a.at<float>(p), -m.at<float>(q), 1e-5);
+          greatest = std::max(greatest, a.at<float>(p));
+        }
+    EXPECT_GT(greatest, 0.5);
+  }
+  options.time = INFINITY;
+  EXPECT_THROW(generate("vortex-street", options), Error);
 }
 
 }  // namespace

@@ -144,42 +144,6 @@ TEST_F(EnSightFile, ThatIsTruncatedGivesAnError) {
             std::string::npos);
 }
 
-// A cube next to two half cubes, so that it has seven faces and is a polyhedron.
-class OpenFoamCase : public FileTest {
- protected:
-  void write_case() const {
-    const auto file = [](const std::string& type, const std::string& name,
-                         const std::string& body) {
-      return "FoamFile\n{\nversion 2.0;\nformat ascii;\nclass " + type + ";\nobject " + name +
-             ";\n}\n" + body;
-    };
-    const auto mesh = [&](const std::string& name, const std::string& type,
-                          const std::string& body) {
-      write("case/constant/polyMesh/" + name, file(type, name, body));
-    };
-    mesh("points", "vectorField",
-         "16\n(\n(0 0 0)\n(0 1 0)\n(0 0 1)\n(0 1 1)\n(1 0 0)\n(1 0.5 0)\n(1 1 0)\n(1 0 1)\n"
-         "(1 0.5 1)\n(1 1 1)\n(2 0 0)\n(2 0.5 0)\n(2 1 0)\n(2 0 1)\n(2 0.5 1)\n(2 1 1)\n)\n");
-    mesh("faces", "faceList",
-         "16\n(\n4(4 5 8 7)\n4(5 6 9 8)\n4(5 8 14 11)\n4(0 2 3 1)\n4(0 4 7 2)\n4(1 3 9 6)\n"
-         "5(0 1 6 5 4)\n5(2 7 8 9 3)\n4(4 10 13 7)\n4(10 11 14 13)\n4(4 5 11 10)\n4(7 13 14 8)\n"
-         "4(6 9 15 12)\n4(11 12 15 14)\n4(5 6 12 11)\n4(8 14 15 9)\n)\n");
-    mesh("owner", "labelList", "16\n(\n0\n0\n1\n0\n0\n0\n0\n0\n1\n1\n1\n1\n2\n2\n2\n2\n)\n");
-    mesh("neighbour", "labelList", "3\n(\n1\n2\n2\n)\n");
-    mesh("boundary", "polyBoundaryMesh",
-         "1\n(\nwalls\n{\ntype wall;\nnFaces 13;\nstartFace 3;\n}\n)\n");
-    write("case/system/controlDict",
-          file("dictionary", "controlDict",
-               "startTime 0;\nendTime 1;\ndeltaT 1;\nwriteControl timeStep;\nwriteInterval 1;\n"));
-    for (const std::string time : {"0", "1"})
-      write("case/" + time + "/p",
-            file("volScalarField", "p",
-                 "dimensions [0 2 -2 0 0 0 0];\ninternalField nonuniform List<scalar>\n3\n(\n1" +
-                     time + "\n2" + time + "\n3" + time +
-                     "\n)\n;\nboundaryField\n{\nwalls\n{\ntype zeroGradient;\n}\n}\n"));
-  }
-};
-
 TEST_F(OpenFoamCase, KeepsPolyhedraAndCellData) {
   write_case();
   const Mesh mesh = read_mesh(path("case"));

@@ -29,6 +29,14 @@ class FileTest : public testing::Test {
   std::filesystem::path directory_;
 };
 
+/// A cube next to two half cubes, so that it has seven faces and is a polyhedron, at the times 0
+/// and 1; cell i's `p` at time t is 10 (i + 1) + t.
+class OpenFoamCase : public FileTest {
+ protected:
+  /// Into the folder "case".
+  void write_case() const;
+};
+
 std::string contents_of(const std::filesystem::path& file);
 
 /// A public data set's file; empty when it is not there, for PLUME_SKIP_WITHOUT.

@@ -191,12 +191,13 @@ TEST(GradientField, PassesOverPointsWithoutAGradient) {
       some[i] = 1, some[i + 1] = 2, some[i + 2] = 3;  // every second point
     SceneOptions options;
     options.keep_cell_numbers = true;
+    options.keep_field_order = true;
     const Scene scene(mesh, options);
     const CellReader reader(mesh);
     std::visit(
         [&](const auto& walkable) {
-          const GradientField partly(walkable->mesh, mesh, some);
-          const GradientField empty(walkable->mesh, mesh, none);
+          const GradientField partly(walkable->mesh, some);
+          const GradientField empty(walkable->mesh, none);
           std::vector<std::uint32_t> ids;
           for (std::uint32_t cell = 0; cell < walkable->mesh.cell_count(); ++cell) {
             reader.points(walkable->mesh.original_cell(cell), ids);

@@ -19,6 +19,7 @@ namespace plume::test {
 namespace {
 
 constexpr double kBound = 1e-5;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Where channel values differ most, packets against twin.
 double worst_difference(const Scene& scene, const Camera& camera, double early_termination = 0,
@@ -74,6 +75,11 @@ std::vector<std::pair<std::string, TransferFunction>> transfer_functions() {
          {4, {0, {1, 0, 0}}}}}},
       {"spike", {{{2, {0, {1, 1, 1}}}, {2.01f, {300, {1, 0.8f, 0}}}, {2.02f, {0, {1, 1, 1}}}}}},
       {"random", random},
+      {"opaque at once",
+       {{{0, {1e8f, {0.2f, 0.4f, 1}}},
+         {3, {1e8f, {1, 0.5f, 0}}},
+         {3.5f, {0.1f, {1, 1, 1}}},
+         {6, {1e8f, {0, 1, 0}}}}}},
       {"nearly opaque", {{{0, {1e4f, {0.2f, 0.4f, 1}}}, {6, {1e6f, {1, 0.5f, 0}}}}}},
       {"nearly transparent", {{{0, {1e-5f, {0.2f, 0.4f, 1}}}, {6, {1e-6f, {1, 0.5f, 0}}}}}},
   };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "plume/tests/preint/transfer_functions.h"
@@ -62,6 +63,107 @@ TEST(PreintegratedTable, is_right_at_its_entries) {
       }
     }
   }
+}
+
+TEST(PreintegratedTable, is_right_at_its_entries_however_it_was_summed) {
+  // Many knots between two entries, steps, optical depths from 1e-5 to 1e4: the windows' sums.
+  for (const auto& [name, function] : tests::all_functions()) {
+    const PreintegratedTable table(function,
+                                   {29, 4, std::array{0.0f, 1.0f}, std::array{1e-3f, 1e3f}});
+    const ClosedForm closed_form(function);
+    for (std::size_t level = 0; level < 4; ++level) {
+      const auto length = static_cast<float>(std::exp2(table.length_axis().value(level)));
+      for (std::size_t front = 0; front < table.scalar_axis().count; ++front) {
+        for (std::size_t back = 0; back < table.scalar_axis().count; ++back) {
+          const auto s_in = static_cast<float>(table.scalar_axis().value(front));
+          const auto s_out = static_cast<float>(table.scalar_axis().value(back));
+          if (function.knots.size() > 3 && (s_in == 0.25f || s_in == 0.5f || s_in == 0.75f ||
+                                            s_out == 0.25f || s_out == 0.5f || s_out == 0.75f))
+            continue;  // at a step a float beside the entry's double sees its other side
+          ASSERT_LE(distance(table.entries()[(level * 29 + back) * 29 + front].color(length),
+                             closed_form.integrate(s_in, s_out, length)),
+                    // The scalar's rounding, where the spike rises by 1e10 a unit.
+                    name == "narrow spike" ? 2e-3f : 2e-5f)
+              << name << ": " << s_in << " to " << s_out << " over " << length;
+        }
+      }
+    }
+  }
+}
+
+TEST(PreintegratedTable, of_a_constant_length_has_two_axes) {
+  const TransferFunction function = tests::smooth_function();
+  TableSettings settings{65, 32, {}, {}, 0.5f};
+  const PreintegratedTable table(function, settings);
+  EXPECT_EQ(table.bytes(), 65u * 65 * 16);
+  const ClosedForm closed_form(function);
+  for (int front = 0; front <= 64; ++front)
+    for (int back = 0; back <= 64; ++back)
+      ASSERT_LE(distance(table.integrate(front / 64.0f, back / 64.0f, 0.5f),
+                         closed_form.integrate(front / 64.0f, back / 64.0f, 0.5f)),
+                1e-6f);
+  // Of another length it knows the opacity, at its entries; its colour is that of its own length.
+  for (const float length : {0.01f, 0.25f, 3.0f, 1e4f}) {
+    const SegmentColor found = table.integrate(0.25f, 0.75f, length);
+    const SegmentColor own = table.integrate(0.25f, 0.75f, 0.5f);
+    EXPECT_NEAR(found.alpha, closed_form.integrate(0.25f, 0.75f, length).alpha, 1e-6f);
+    EXPECT_NEAR(found.r, own.r / own.alpha * found.alpha, 1e-6f);
+  }
+  // It converges with its size, at its length: by 64 where it is of second order, by 8 beside
+  // knots, where it is of first.
+  settings.scalar_count = 33;
+  const float coarse = PreintegratedTable(function, settings).report().largest_error;
+  settings.scalar_count = 257;
+  const float fine = PreintegratedTable(function, settings).report().largest_error;
+  EXPECT_LT(fine, coarse / 16);
+}
+
+TEST(PreintegratedTable, reports_an_error_that_others_find_too) {
+  for (const auto& function : {tests::smooth_function(), tests::random_function(3, 12, 5)}) {
+    const PreintegratedTable table(function, {32, 16, {}, {}});
+    const TableReport& report = table.report();
+    EXPECT_GT(report.build_seconds, 0);
+    EXPECT_GT(report.rms_error, 0);
+    EXPECT_GT(report.largest_error, report.rms_error);
+    const ClosedForm closed_form(function);
+    const float low = function.knots.front().scalar, high = function.knots.back().scalar;
+    std::mt19937_64 random(14);
+    std::uniform_real_distribution<float> scalar(low, high);
+    double squares = 0;
+    constexpr int count = 20000;
+    for (int i = 0; i < count; ++i) {
+      const float s_in = scalar(random), s_out = scalar(random);
+      const float length =
+          tests::random_length(random, table.length_range()[0], table.length_range()[1]);
+      const SegmentColor found = table.integrate(s_in, s_out, length);
+      const SegmentColor exact = closed_form.integrate(s_in, s_out, length);
+      for (const double d :
+           {found.r - exact.r, found.g - exact.g, found.b - exact.b, found.alpha - exact.alpha})
+        squares += d * d;
+    }
+    EXPECT_NEAR(report.rms_error, std::sqrt(squares / (4 * count)), 0.15 * report.rms_error);
+  }
+}
+
+TEST(PreintegratedTable, names_what_is_wrong_with_its_settings) {
+  using Range = std::array<float, 2>;
+  constexpr float infinity = std::numeric_limits<float>::infinity();
+  constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_FALSE(TableSettings{}.problem());
+  EXPECT_EQ(*(TableSettings{1, 8, {}, {}}).problem(),
+            "a table of 1 scalars and 8 lengths: at least 2 of each");
+  EXPECT_EQ(*(TableSettings{8, 8, Range{2, 1}, {}}).problem(),
+            "a table of scalars from 2 to 1: both must be finite, and ascend");
+  for (const float bad : {infinity, -infinity, not_a_number}) {
+    EXPECT_TRUE((TableSettings{8, 8, Range{0, bad}, {}}).problem()) << bad;
+    EXPECT_TRUE((TableSettings{8, 8, Range{bad, 0}, {}}).problem()) << bad;
+    EXPECT_TRUE((TableSettings{8, 8, {}, Range{1, bad}}).problem()) << bad;
+    EXPECT_TRUE((TableSettings{8, 8, {}, {}, bad}).problem()) << bad;
+  }
+  EXPECT_EQ(*(TableSettings{8, 8, {}, Range{0, 1}}).problem(),
+            "a table of lengths from 0 to 1: both must be finite, above 0, and ascend");
+  EXPECT_EQ(*(TableSettings{8, 8, {}, {}, 0.0f}).problem(),
+            "a table of segments of length 0: it must be finite and above 0");
 }
 
 TEST(PreintegratedTable, scales_what_is_shorter_than_its_shortest) {

@@ -52,6 +52,51 @@ TEST(ScalarPolynomial, is_the_polynomial_that_was_sampled) {
   }
 }
 
+TEST(ScalarPolynomial, quadratic_pieces_stay_near) {
+  for (const auto& [f, p] : seeded_polynomials(400)) {
+    for (const double tolerance : {1e-2, 1e-4}) {
+      double from = 0, last = p(0);
+      int pieces = 0;
+      EXPECT_TRUE(
+          p.for_each_quadratic_piece(tolerance, [&](const ScalarPolynomial& q, double share) {
+            EXPECT_EQ(q.degree(), 2);
+            EXPECT_NEAR(q(0), last, 1e-12 * size_of(f));
+            for (const double v : {0.0, 0.2, 0.21132486540518712, 0.5, 0.8, 1.0})
+              EXPECT_NEAR(q(v), p(from + v * share), tolerance + 1e-6 * size_of(f));
+            from += share;
+            last = q(1);
+            ++pieces;
+            return true;
+          }));
+      EXPECT_NEAR(from, 1, 1e-12);
+      EXPECT_TRUE(p.degree() != 2 || pieces == 1);
+    }
+  }
+  // No more pieces than are needed: a cubic of 12 sqrt(3) * 8 is off by 8 at most in one piece.
+  const double c = 12 * std::sqrt(3.0) * 8 / 6;
+  const auto at = [&](double u) { return static_cast<float>(6 * c * u * (u - 0.5) * (u - 1)); };
+  const auto cubic = ScalarPolynomial::cubic(at(0), at(1.0 / 3), at(2.0 / 3), at(1));
+  for (const auto& [tolerance, expected] : {std::pair{8.01, 1}, {1.001, 2}, {0.999, 3}}) {
+    int pieces = 0;
+    cubic.for_each_quadratic_piece(tolerance, [&](const ScalarPolynomial&, double) {
+      ++pieces;
+      return pieces < 100;
+    });
+    EXPECT_EQ(pieces, expected) << tolerance;
+  }
+}
+
+TEST(ScalarPolynomial, linear_is_what_its_ends_say) {
+  const auto p = ScalarPolynomial::linear(0.25f, -3);
+  EXPECT_EQ(p.degree(), 1);
+  EXPECT_EQ(p(0), 0.25);
+  EXPECT_EQ(p(0.5), -1.375);
+  EXPECT_EQ(p(1), -3);
+  EXPECT_EQ(p.extrema().size, 0u);
+  EXPECT_EQ(p.mean(), -1.375);
+  EXPECT_FALSE(ScalarPolynomial::linear(NAN, 1).is_finite());
+}
+
 TEST(ScalarPolynomial, finds_where_it_has_a_value) {
   std::mt19937_64 random(6);
   std::uniform_real_distribution<double> share(0.001, 0.999);

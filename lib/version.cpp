@@ -1,0 +1,7 @@
+#include "plume/lib/version.h"
+
+namespace plume {
+
+const char* version() { return PLUME_VERSION; }
+
+}  // namespace plume
