@@ -18,7 +18,7 @@ namespace {
 
 using test::Place;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr std::size_t kRays = 84;  // a mesh
+constexpr std::size_t kRays = 120;  // a mesh
 
 // --- Meshes
 
