@@ -7,51 +7,33 @@
 #include <array>
 #include <cmath>
 
+#include "plume/mesh/leaf_cells.h"
+
 namespace plume {
 namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-constexpr std::size_t kLeaf = CellHierarchy::kLeafCells;
+constexpr std::size_t kLeaf = kLeafCells;
 
-using Vector = std::array<float, 3>;
-
-// The corners of a leaf's cells, laid out for compilers to use vectors; a leaf that is not full has
-// its last cell several times.
-struct LeafCorners {
-  alignas(64) float x[4][kLeaf], y[4][kLeaf], z[4][kLeaf], scalar[4][kLeaf];
-  alignas(64) float sign[kLeaf];  // -1 where the cell is odd
-
-  void put(std::size_t place, const WalkableTets& mesh, std::uint32_t cell) {
-    const auto points = mesh.points_of(cell);
-    for (std::size_t i = 0; i < 4; ++i) {
-      const WalkablePoint& p = mesh.points[points[i]];
-      x[i][place] = p.position[0];
-      y[i][place] = p.position[1];
-      z[i][place] = p.position[2];
-      scalar[i][place] = p.scalar;
-    }
-    sign[place] = mesh.is_odd(cell) ? -1.0f : 1.0f;
-  }
-};
-
-// Whether the volumes of all cells are positive and the cells nowhere thinner than kLeastWidth. A
+// A bit for each cell whose volume is not positive, or that is somewhere thinner than kLeastWidth. A
 // cell's width is six times its volume divided by twice the area of a face, or by the cross product
 // of two opposite edges. Rounding is far below what a point may be moved by.
-bool all_wide(const LeafCorners& p) {
+unsigned thin_cells(const LeafCells& p) {
   constexpr float kSquared = kLeastWidth * kLeastWidth;
-  int wide = 1;
+  alignas(64) int wide[kLeaf];
   for (std::size_t i = 0; i < kLeaf; ++i) {
-    const float ax = p.x[1][i] - p.x[0][i], ay = p.y[1][i] - p.y[0][i];
-    const float az = p.z[1][i] - p.z[0][i];
-    const float bx = p.x[2][i] - p.x[0][i], by = p.y[2][i] - p.y[0][i];
-    const float bz = p.z[2][i] - p.z[0][i];
-    const float cx = p.x[3][i] - p.x[0][i], cy = p.y[3][i] - p.y[0][i];
-    const float cz = p.z[3][i] - p.z[0][i];
+    const float ax = p.position[0][1][i] - p.position[0][0][i], ay = p.position[1][1][i] - p.position[1][0][i];
+    const float az = p.position[2][1][i] - p.position[2][0][i];
+    const float bx = p.position[0][2][i] - p.position[0][0][i], by = p.position[1][2][i] - p.position[1][0][i];
+    const float bz = p.position[2][2][i] - p.position[2][0][i];
+    const float cx = p.position[0][3][i] - p.position[0][0][i], cy = p.position[1][3][i] - p.position[1][0][i];
+    const float cz = p.position[2][3][i] - p.position[2][0][i];
     const float abx = ay * bz - az * by, aby = az * bx - ax * bz, abz = ax * by - ay * bx;
     const float bcx = by * cz - bz * cy, bcy = bz * cx - bx * cz, bcz = bx * cy - by * cx;
     const float cax = cy * az - cz * ay, cay = cz * ax - cx * az, caz = cx * ay - cy * ax;
-    const float volume = p.sign[i] * (abx * cx + aby * cy + abz * cz);
+    const float sign = (p.odd >> i & 1) != 0 ? -1.0f : 1.0f;
+    const float volume = sign * (abx * cx + aby * cy + abz * cz);
     auto squared = [](float x, float y, float z) { return x * x + y * y + z * z; };
     const float squares[7] = {squared(abx, aby, abz),
                               squared(bcx, bcy, bcz),
@@ -62,24 +44,21 @@ bool all_wide(const LeafCorners& p) {
                               squared(abx + bcx + cax, aby + bcy + cay, abz + bcz + caz)};
     float largest = squares[0];
     for (std::size_t s = 1; s < 7; ++s) largest = squares[s] > largest ? squares[s] : largest;
-    wide &= static_cast<int>(volume > 0) &
-            static_cast<int>(volume * volume >= kSquared * largest);
+    wide[i] = static_cast<int>(volume > 0) &
+              static_cast<int>(volume * volume >= kSquared * largest);
   }
-  return wide != 0;
-}
-
-bool at_boundary(const WalkableTets::Cell& cell) {
-  return cell[0].cell == kNone || cell[1].cell == kNone || cell[2].cell == kNone ||
-         cell[3].cell == kNone;
+  unsigned thin = 0;
+  for (std::size_t i = 0; i < kLeaf; ++i) thin |= (wide[i] != 0 ? 0u : 1u) << i;
+  return thin;
 }
 
 struct Cluster {
-  Vector low{kInfinity, kInfinity, kInfinity};
-  Vector high{-kInfinity, -kInfinity, -kInfinity};
+  std::array<float, 3> low{kInfinity, kInfinity, kInfinity};
+  std::array<float, 3> high{-kInfinity, -kInfinity, -kInfinity};
   float least = kInfinity, greatest = -kInfinity;
   bool special = false;
 
-  void add(const LeafCorners& p) {
+  void add(const LeafCells& p) {
     auto range = [](const float(&values)[4][kLeaf], float& from, float& to) {
       // Comparisons with NaN are false.
       float lows[kLeaf], highs[kLeaf];
@@ -93,25 +72,10 @@ struct Cluster {
       from = *std::min_element(lows, lows + kLeaf);
       to = *std::max_element(highs, highs + kLeaf);
     };
-    range(p.x, low[0], high[0]);
-    range(p.y, low[1], high[1]);
-    range(p.z, low[2], high[2]);
+    range(p.position[0], low[0], high[0]);
+    range(p.position[1], low[1], high[1]);
+    range(p.position[2], low[2], high[2]);
     range(p.scalar, least, greatest);
-  }
-
-  // Makes room for what rounding adds to a scalar.
-  void widen() {
-    if (!(least <= greatest)) return;
-    const double margin = CellHierarchy::kRounding *
-                          std::max(std::abs(double{least}), std::abs(double{greatest}));
-    if (const double below = least - margin; static_cast<float>(below) > below)
-      least = std::nextafter(static_cast<float>(below), -kInfinity);
-    else
-      least = static_cast<float>(below);
-    if (const double above = greatest + margin; static_cast<float>(above) < above)
-      greatest = std::nextafter(static_cast<float>(above), kInfinity);
-    else
-      greatest = static_cast<float>(above);
   }
 
   // What is missing is never looked at, wherever its box is.
@@ -140,14 +104,28 @@ Cluster joined(const CellHierarchy::Node& node, std::size_t children) {
   return all;
 }
 
-}  // namespace
-
-bool is_special(const WalkableTets& mesh, std::uint32_t cell) {
-  if (at_boundary(mesh.cells[cell])) return true;
-  LeafCorners corners;
-  for (std::size_t i = 0; i < kLeaf; ++i) corners.put(i, mesh, cell);
-  return !all_wide(corners);
+// See CellHierarchy::cell_ranges.
+std::uint8_t share_of_range(const LeafCells& cells, std::size_t i, float least, float greatest) {
+  float from = kInfinity, to = -kInfinity;
+  for (std::size_t c = 0; c < 4; ++c) {
+    from = cells.scalar[c][i] < from ? cells.scalar[c][i] : from;
+    to = cells.scalar[c][i] > to ? cells.scalar[c][i] : to;
+  }
+  if (!(from <= to)) return 15;
+  widen_range(from, to);
+  const int first = CellHierarchy::sixteenth(from, least, greatest);
+  const int last = CellHierarchy::sixteenth(to, least, greatest);
+  return static_cast<std::uint8_t>(first | last << 4);
 }
+
+std::uint32_t first_boundary(const WalkableTets& mesh, std::uint32_t leaf) {
+  const auto found = std::lower_bound(
+      mesh.boundary.begin(), mesh.boundary.end(), kLeaf * leaf,
+      [](const WalkableTets::Boundary& face, std::size_t cell) { return face.cell < cell; });
+  return static_cast<std::uint32_t>(found - mesh.boundary.begin());
+}
+
+}  // namespace
 
 CellHierarchy make_cell_hierarchy(const WalkableTets& mesh) {
   constexpr std::size_t kWidth = CellHierarchy::kWidth;
@@ -161,6 +139,7 @@ CellHierarchy make_cell_hierarchy(const WalkableTets& mesh) {
   } while (sizes.back() > 1);
   made.nodes.resize(made.levels.back());
   made.special.resize(made.levels.back());
+  made.leaves.resize(sizes[0]);
 
   // Calls fill(node, children) for the nodes of a level.
   auto for_each_node = [&](std::size_t level, std::size_t grain, const auto& fill) {
@@ -177,23 +156,25 @@ CellHierarchy make_cell_hierarchy(const WalkableTets& mesh) {
         });
   };
   for_each_node(0, 16, [&](std::size_t leaf) {
-    // The neighbours of cells so far ahead are fetched meanwhile.
-    constexpr std::size_t kAhead = 2 * kLeaf;
-    LeafCorners corners;
+    // The neighbours of the cells of the leaf after the next are fetched meanwhile.
+    const std::size_t ahead = std::min(mesh.cell_count(), kLeaf * (leaf + 2));
+    for (std::size_t c = ahead; c < std::min(mesh.cell_count(), ahead + kLeaf); ++c)
+      for (const WalkableTets::Link& link : mesh.cells[c])
+        if (link.cell != kNone) __builtin_prefetch(&mesh.cells[link.cell]);
+    const auto number = static_cast<std::uint32_t>(leaf);
+    CellHierarchy::Leaf& kept = made.leaves[leaf];
+    kept.first_boundary = first_boundary(mesh, number);
+    LeafCells cells;
+    cells.read(mesh, number, kept.first_boundary);
+    const unsigned thin = thin_cells(cells), special = cells.boundary | thin;
+    kept.special = static_cast<std::uint16_t>(special);
+    kept.thin = static_cast<std::uint16_t>(thin);
     Cluster cluster;
-    for (std::size_t i = 0; i < kLeaf; ++i) {
-      const std::size_t ahead = kLeaf * leaf + i + kAhead;
-      if (ahead < mesh.cell_count())
-        for (const WalkableTets::Link& link : mesh.cells[ahead])
-          if (link.cell != kNone) __builtin_prefetch(&mesh.cells[link.cell]);
-      const auto cell =
-          static_cast<std::uint32_t>(std::min(kLeaf * leaf + i, mesh.cell_count() - 1));
-      corners.put(i, mesh, cell);
-      cluster.special = cluster.special || at_boundary(mesh.cells[cell]);
-    }
-    cluster.add(corners);
-    cluster.special = cluster.special || !all_wide(corners);
-    cluster.widen();
+    cluster.add(cells);
+    cluster.special = special != 0;
+    if (cluster.least <= cluster.greatest) widen_range(cluster.least, cluster.greatest);
+    for (std::size_t i = 0; i < kLeaf; ++i)
+      kept.ranges[i] = share_of_range(cells, i, cluster.least, cluster.greatest);
     return cluster;
   });
   for (std::size_t level = 1; level + 1 < sizes.size(); ++level)

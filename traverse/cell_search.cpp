@@ -10,9 +10,8 @@ HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-void SearchIsosurfaces(const WalkableTets& mesh, const CellHierarchy& hierarchy,
-                       const RayBundle& bundle, IsosurfaceTarget& target) {
-  CellSearch<IsosurfaceTarget>(mesh, hierarchy, bundle, target).Run();
+void SearchIsosurfaces(LeafCache& leaves, const RayBundle& bundle, IsosurfaceTarget& target) {
+  CellSearch<IsosurfaceTarget>(leaves, bundle, target).Run();
 }
 
 }  // namespace HWY_NAMESPACE
@@ -24,15 +23,14 @@ namespace plume {
 
 HWY_EXPORT(SearchIsosurfaces);
 
-void find_isosurfaces(const WalkableTets& mesh, const CellHierarchy& hierarchy,
-                      std::span<const SoughtIsovalue> isovalues, double connected,
-                      RayBundle& bundle, std::span<SearchedRay> found) {
+void find_isosurfaces(LeafCache& leaves, std::span<const SoughtIsovalue> isovalues,
+                      double connected, RayBundle& bundle, std::span<SearchedRay> found) {
   if (bundle.size() == 0) return;
   bundle.fill();
-  IsosurfaceTarget target(mesh, hierarchy, isovalues, bundle, found);
-  HWY_DYNAMIC_DISPATCH(SearchIsosurfaces)(mesh, hierarchy, bundle, target);
+  IsosurfaceTarget target(leaves.mesh(), leaves.hierarchy(), isovalues, bundle, found);
+  HWY_DYNAMIC_DISPATCH(SearchIsosurfaces)(leaves, bundle, target);
   // World length of what rounding may make of a place.
-  target.finish({connected, IsosurfaceTarget::kRounding / mesh.frame.scale});
+  target.finish({connected, IsosurfaceTarget::kRounding / leaves.mesh().frame.scale});
 }
 
 }  // namespace plume

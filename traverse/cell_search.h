@@ -10,6 +10,7 @@
 
 #include "plume/mesh/cell_hierarchy.h"
 #include "plume/mesh/walkable_tets.h"
+#include "plume/traverse/leaf_cache.h"
 #include "plume/traverse/ray_bundle.h"
 #include "plume/traverse/searched_ray.h"
 
@@ -42,8 +43,7 @@ struct SoughtIsovalue {
 ///
 /// Requires a scalar on points. `isovalues` are finite, ascending and different; `found` has a
 /// place for each ray. Passages closer than `connected`, in world units, count as one.
-void find_isosurfaces(const WalkableTets& mesh, const CellHierarchy& hierarchy,
-                      std::span<const SoughtIsovalue> isovalues, double connected,
-                      RayBundle& bundle, std::span<SearchedRay> found);
+void find_isosurfaces(LeafCache& leaves, std::span<const SoughtIsovalue> isovalues,
+                      double connected, RayBundle& bundle, std::span<SearchedRay> found);
 
 }  // namespace plume

@@ -36,14 +36,15 @@ class IsosurfaceTarget {
 
   std::span<const ScalarWindow> windows() const { return windows_; }
   const float* limits() const { return limits_.data(); }
-  /// The greatest of them.
-  float limit() const {
-    float greatest = -kInfinity;
-    for (const float limit : limits_) greatest = std::max(greatest, limit);
-    return greatest;
+  /// The greatest of them, or more.
+  float limit() {
+    if (limits_changed_) limit_ = *std::max_element(limits_.begin(), limits_.end());
+    limits_changed_ = false;
+    return limit_;
   }
 
-  void visit(std::size_t index, const TetCell& cell) {
+  /// The ray goes through the cell.
+  void go_through(std::size_t index, const TetCell& cell) {
     const ShearedFrame& frame = bundle_.frame(index);
     SearchedRay& ray = found_[index];
     const TetPassage passage(cell, frame);
@@ -64,10 +65,26 @@ class IsosurfaceTarget {
       if (between.opaque && t_out < lasts_[index]) {
         lasts_[index] = t_out;
         // What begins at the same place still matters.
-        limits_[index] = std::nextafter(static_cast<float>(out.z * frame.sign()), kInfinity);
+        set_limit(index, std::nextafter(static_cast<float>(out.z * frame.sign()), kInfinity));
       }
     }
-    if (ray.declined()) limits_[index] = -kInfinity;
+    if (ray.declined()) set_limit(index, -kInfinity);
+  }
+
+  /// The ray goes into or out of a cell that is not thin, and does not matter, at the boundary.
+  void cross_boundary(std::size_t index, const TetCell& cell) {
+    const ShearedFrame& frame = bundle_.frame(index);
+    const TetPassage passage(cell, frame);
+    if (passage.ways() == TetPassage::Ways::none) return;
+    if (passage.ways() == TetPassage::Ways::two) return decline(index);
+    SearchedRay& ray = found_[index];
+    const WalkableTets::Cell& links = mesh_.cells[cell.cell];
+    auto cross = [&](const Crossing& place, bool in) {
+      ray.cross_boundary(frame.t(place.z), place.scalar, in);
+    };
+    if (links[passage.in_face()].cell == kNone) cross(passage.in(), true);
+    if (links[passage.out_face()].cell == kNone) cross(passage.out(), false);
+    if (ray.declined()) set_limit(index, -kInfinity);
   }
 
   void finish(const SearchedRay::Gaps& gaps) {
@@ -108,7 +125,12 @@ class IsosurfaceTarget {
 
   void decline(std::size_t index) {
     found_[index].decline();
-    limits_[index] = -kInfinity;
+    set_limit(index, -kInfinity);
+  }
+
+  void set_limit(std::size_t index, float limit) {
+    limits_changed_ = limits_changed_ || limits_[index] == limit_;
+    limits_[index] = limit;
   }
 
   const WalkableTets& mesh_;
@@ -118,6 +140,8 @@ class IsosurfaceTarget {
   std::span<SearchedRay> found_;
   std::vector<ScalarWindow> windows_;
   alignas(64) std::array<float, RayBundle::kRays> limits_;
+  bool limits_changed_ = false;
+  float limit_ = kInfinity;
   std::array<double, RayBundle::kRays> lasts_;
 };
 

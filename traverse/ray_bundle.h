@@ -67,17 +67,21 @@ class RayBundle {
   struct Hull {
     Line least_x, greatest_x, least_y, greatest_y;
   };
-  Hull hull() const {
-    return {bound(offset_x_, slope_x_, false), bound(offset_x_, slope_x_, true),
-            bound(offset_y_, slope_y_, false), bound(offset_y_, slope_y_, true)};
+  Hull hull() const { return hull(0, size_); }
+  /// Of some of the rays; there must be one.
+  Hull hull(std::size_t begin, std::size_t end) const {
+    return {bound(offset_x_, slope_x_, false, begin, end),
+            bound(offset_x_, slope_x_, true, begin, end),
+            bound(offset_y_, slope_y_, false, begin, end),
+            bound(offset_y_, slope_y_, true, begin, end)};
   }
 
  private:
   // The least of linear functions is concave, so it is nowhere below its own chord.
   Line bound(const std::array<float, kRays>& offsets, const std::array<float, kRays>& slopes,
-             bool greatest) const {
-    float behind = offsets[0] - slopes[0], ahead = offsets[0] + slopes[0];
-    for (std::size_t i = 1; i < size_; ++i) {
+             bool greatest, std::size_t begin, std::size_t end) const {
+    float behind = offsets[begin] - slopes[begin], ahead = offsets[begin] + slopes[begin];
+    for (std::size_t i = begin + 1; i < end; ++i) {
       const float b = offsets[i] - slopes[i], a = offsets[i] + slopes[i];
       behind = greatest ? std::max(behind, b) : std::min(behind, b);
       ahead = greatest ? std::max(ahead, a) : std::min(ahead, a);

@@ -12,23 +12,12 @@
 
 namespace plume {
 
-/// A cell with all that a ray needs to know of it.
+/// A cell with all that a ray needs to know of it: its points in ascending order.
 struct TetCell {
   std::uint32_t cell = kNone;
-  std::array<std::uint32_t, 4> ids{};  ///< its points, ascending
   std::array<WalkablePoint, 4> points{};
-  bool odd = false;      ///< see WalkableTets::odd_bits
-  bool special = false;  ///< see is_special()
+  bool odd = false;  ///< see WalkableTets::odd_bits
 };
-
-inline TetCell tet_cell(const WalkableTets& mesh, std::uint32_t cell) {
-  TetCell made;
-  made.cell = cell;
-  made.ids = mesh.points_of(cell);
-  for (std::size_t i = 0; i < 4; ++i) made.points[i] = mesh.points[made.ids[i]];
-  made.odd = mesh.is_odd(cell);
-  return made;
-}
 
 /// The way in and the way out, decided by the edges and measured on the faces as by TetWalker: the
 /// same bits.
@@ -82,7 +71,8 @@ class TetPassage {
     const WalkableTets::Link& behind = mesh.cells[cell_.cell][in_];
     if (behind.cell == kNone) return true;
     WalkableTets::Boundary face{behind.cell, behind.apex, {}};
-    for (std::size_t i = 0; i < 3; ++i) face.loop[i] = cell_.ids[(in_ + 1 + i) % 4];
+    const auto ids = mesh.points_of(cell_.cell);
+    for (std::size_t i = 0; i < 3; ++i) face.loop[i] = ids[(in_ + 1 + i) % 4];
     TetWalker back(mesh, frame_);
     back.enter(face, 0);
     for (int step = 0; step < kMost; ++step) {
