@@ -7,8 +7,8 @@
 #include <limits>
 
 #include "plume/preint/compositing.h"
+#include "plume/preint/optical_depth.h"
 #include "plume/preint/scalar_polynomial.h"
-#include "plume/preint/transfer_function.h"
 #include "plume/traverse/segment.h"
 
 namespace plume {
@@ -60,8 +60,18 @@ struct VolumePixel {
   }
 };
 
-/// The greatest scalar, that of the extrema inside of cells too. NaN is passed over; -infinity
-/// where there is none.
+/// The integral of the scalar over a segment, exact for its polynomial; NaN where it is not known.
+inline double scalar_integral(const Segment& segment) {
+  const double mean = segment.order == ScalarOrder::linear
+                          ? 0.5 * (static_cast<double>(segment.s_in) + segment.s_out)
+                          : polynomial_of(segment).mean();
+  return mean * (segment.t_out - segment.t_in);
+}
+
+// What follows adds up one number a ray: `value()`, and whether the ray `seen()` any. Where a
+// segment's scalar is NaN it is passed over.
+
+/// The greatest scalar, that of the extrema inside of cells too; NaN where there is none.
 struct MaximumPixel {
   float maximum = -std::numeric_limits<float>::infinity();
 
@@ -71,54 +81,104 @@ struct MaximumPixel {
                                      : polynomial_of(segment).maximum());
     return true;
   }
+  bool seen() const { return maximum > -std::numeric_limits<float>::infinity(); }
+  double value() const { return seen() ? maximum : std::numeric_limits<float>::quiet_NaN(); }
 };
 
-/// The integral of the scalar, exact for a segment's polynomial. NaN counts as nothing.
-struct IntegralPixel {
-  double integral = 0;
+/// The least scalar, likewise.
+struct MinimumPixel {
+  float minimum = std::numeric_limits<float>::infinity();
 
   bool operator()(const Segment& segment) {
-    const double mean = segment.order == ScalarOrder::linear
-                            ? 0.5 * (static_cast<double>(segment.s_in) + segment.s_out)
-                            : polynomial_of(segment).mean();
-    if (!std::isnan(mean)) integral += mean * (segment.t_out - segment.t_in);
+    minimum = std::fmin(minimum, segment.order == ScalarOrder::linear
+                                     ? std::fmin(segment.s_in, segment.s_out)
+                                     : polynomial_of(segment).minimum());
     return true;
+  }
+  bool seen() const { return minimum < std::numeric_limits<float>::infinity(); }
+  double value() const { return seen() ? minimum : std::numeric_limits<float>::quiet_NaN(); }
+};
+
+/// The integral of the scalar; 0 where there is none.
+struct IntegralPixel {
+  double integral = 0;
+  bool any = false;
+
+  bool operator()(const Segment& segment) {
+    any = true;
+    const double part = scalar_integral(segment);
+    if (!std::isnan(part)) integral += part;
+    return true;
+  }
+  bool seen() const { return any; }
+  double value() const { return integral; }
+};
+
+/// The integral of the scalar divided by the length over which it is known; NaN where that is 0.
+struct AveragePixel {
+  double integral = 0, length = 0;
+
+  bool operator()(const Segment& segment) {
+    const double part = scalar_integral(segment);
+    if (std::isnan(part)) return true;
+    integral += part;
+    length += segment.t_out - segment.t_in;
+    return true;
+  }
+  bool seen() const { return length > 0; }
+  double value() const {
+    return seen() ? integral / length : std::numeric_limits<double>::quiet_NaN();
   }
 };
 
-/// The first segment, or linear part of one, that is not transparent.
-template <class Integrator>
+/// The cells that the ray goes through.
+struct CellCountPixel {
+  std::uint64_t cells = 0;
+
+  bool operator()(const Segment&) {
+    ++cells;
+    return true;
+  }
+  bool seen() const { return cells > 0; }
+  double value() const { return static_cast<double>(cells); }
+};
+
+/// The optical depth.
+struct OpticalDepthPixel {
+  const OpticalDepth& optics;
+  double tolerance;  ///< of the linear parts of segments
+  double depth = 0;
+  bool any = false;
+
+  bool operator()(const Segment& segment) {
+    any = true;
+    return for_each_linear_part(segment, tolerance, [this](const Segment& part) {
+      depth += optics(part.s_in, part.s_out, segment_length(part));
+      return true;
+    });
+  }
+  bool seen() const { return any; }
+  double value() const { return depth; }
+};
+
+/// The distance to the first segment, or linear part of one, that is not transparent; infinite
+/// where there is none.
 struct FirstPixel {
-  const Integrator& integrator;
+  const OpticalDepth& optics;
   double tolerance;  ///< of the linear parts of segments
   double depth = std::numeric_limits<double>::infinity();
   std::uint32_t cell = 0xFFFFFFFFu;
 
   bool operator()(const Segment& segment) {
     return for_each_linear_part(segment, tolerance, [this](const Segment& part) {
-      if (!(integrator.optical_depth(part.s_in, part.s_out, segment_length(part)) > 0)) return true;
+      if (!(optics(part.s_in, part.s_out, segment_length(part)) > 0)) return true;
       depth = part.t_in;
       cell = part.cell;
       return false;
     });
   }
-};
-
-/// What the further channels hold, gathered besides the picture.
-template <class Integrator>
-struct ChannelPixel {
-  FirstPixel<Integrator> first;
-  double optical_depth = 0;
-  std::uint64_t cells = 0;
-
-  void operator()(const Segment& segment) {
-    if (!(first.depth < std::numeric_limits<double>::infinity())) first(segment);
-    for_each_linear_part(segment, first.tolerance, [this](const Segment& part) {
-      optical_depth += first.integrator.optical_depth(part.s_in, part.s_out, segment_length(part));
-      return true;
-    });
-    ++cells;
-  }
+  bool seen() const { return depth < std::numeric_limits<double>::infinity(); }
+  double value() const { return depth; }
 };
 
 }  // namespace plume

@@ -1,6 +1,7 @@
 /// From a scene to a picture.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -24,13 +25,24 @@ enum class Mode : std::uint8_t {
   /// The greatest scalar along the ray, in the transfer function's colour for it; opaque where the
   /// ray meets the mesh. Channel "maximum".
   maximum,
+  /// The least, likewise. Channel "minimum".
+  minimum,
+  /// The integral of the scalar divided by the length of the ray in the mesh, likewise. Channel
+  /// "average".
+  average,
   /// The integral of the scalar along the ray, in field units times world length units, as a shade
   /// of gray from the picture's least (or 0) to its greatest. Channel "integral".
   integral,
+  /// The optical depth of the volume, which has no unit, as a shade of gray from 0 to the picture's
+  /// greatest. Channel "optical_depth".
+  optical_depth,
   /// The distance to the first segment that is not transparent, or, in a scene with intervals or
   /// isosurfaces, to the first of these that is not, as a shade of gray: the nearest is white, the
   /// farthest black. Channel "depth".
   depth,
+  /// How many cells the ray goes through, as a shade of gray from 0 to the picture's greatest.
+  /// Channel "cell_count".
+  cell_count,
 };
 
 struct RenderSettings {
@@ -79,6 +91,9 @@ struct RenderStatistics {
   std::uint64_t rays_in_packets = 0;  ///< rays walked by packets; the others one by one
   std::uint64_t surfaces = 0;         ///< isosurfaces crossed, before rays ended
   std::uint64_t visits = 0;           ///< to interval volumes, before rays ended
+  /// What a mode's numbers run from and to, in its channel's unit; nothing in the mode volume and
+  /// where no ray has one.
+  std::optional<std::array<float, 2>> values;
   /// What was chosen for this scene and why, one choice a line.
   std::vector<std::string> plan;
 };

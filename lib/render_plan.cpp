@@ -3,11 +3,18 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "plume/lib/render_modes.h"
+
 namespace plume {
 
 bool is_classified(const Scene& scene, const RenderSettings& settings) {
   return !scene.classification().is_plain_volume() &&
          (settings.mode == Mode::volume || settings.mode == Mode::depth);
+}
+
+bool is_linear(const Scene& scene, const RenderSettings& settings) {
+  return settings.order == ScalarOrder::linear || scene.field().association == Association::cell ||
+         std::string(scene.form()) == "tetrahedra";
 }
 
 namespace {
@@ -40,9 +47,7 @@ void describe_surfaces(const Scene& scene, const RenderSettings& settings,
     for (const Isosurface& surface : classification.isosurfaces)
       values.push_back(fmt::format("{:g}", surface.value));
     plan.push_back(fmt::format("isosurfaces: {}, {}", fmt::join(values, " "),
-                               settings.order == ScalarOrder::linear ||
-                                       std::string(scene.form()) == "tetrahedra" ||
-                                       scene.field().association == Association::cell
+                               is_linear(scene, settings)
                                    ? "in closed form"
                                    : "by isolated roots of each cell's polynomial"));
   }
@@ -68,27 +73,16 @@ std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings&
                                                     : describe_order(settings.order)));
   if (!settings.clip_planes.empty())
     plan.push_back(fmt::format("clip planes: {}, where rays are cut", settings.clip_planes.size()));
-  switch (settings.mode) {
-    case Mode::volume: {
-      constexpr const char* kNames[] = {"midpoint", "table", "closed form"};
-      if (!scene.classification().volume)
-        plan.push_back("volume: none");
-      else
-        plan.push_back(fmt::format("integrator: {} ({} knots)",
-                                   kNames[static_cast<int>(settings.integrator.kind)],
-                                   scene.transfer_function().knots.size()));
-      break;
-    }
-    case Mode::maximum:
-      plan.push_back("maximum of the scalar: no optics");
-      break;
-    case Mode::integral:
-      plan.push_back("integral of the scalar: no optics");
-      break;
-    case Mode::depth:
-      plan.push_back(is_classified(scene, settings) ? "first hit of an isosurface or interval"
-                                                    : "first contribution: optical depth alone");
-      break;
+  if (settings.mode != Mode::volume) {
+    plan.push_back(is_classified(scene, settings) ? "first hit of an isosurface or interval"
+                                                  : in_words(settings.mode).cost);
+  } else if (!scene.classification().volume) {
+    plan.push_back("volume: none");
+  } else {
+    constexpr const char* kNames[] = {"midpoint", "table", "closed form"};
+    plan.push_back(fmt::format("integrator: {} ({} knots)",
+                               kNames[static_cast<int>(settings.integrator.kind)],
+                               scene.transfer_function().knots.size()));
   }
   if (is_classified(scene, settings)) describe_surfaces(scene, settings, plan);
   if (settings.lighting)

@@ -11,6 +11,9 @@ namespace plume {
 /// Whether the picture shows more than a volume.
 bool is_classified(const Scene& scene, const RenderSettings& settings);
 
+/// Whether the scalar is linear along every segment.
+bool is_linear(const Scene& scene, const RenderSettings& settings);
+
 /// What follows from the scene and the settings alone, one choice a line.
 std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings& settings);
 

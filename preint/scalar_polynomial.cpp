@@ -90,4 +90,11 @@ float ScalarPolynomial::maximum() const {
   return maximum;
 }
 
+float ScalarPolynomial::minimum() const {
+  float minimum = std::fmin(first_, last_);
+  for (const double place : extrema_)
+    minimum = std::fmin(minimum, static_cast<float>((*this)(place)));
+  return minimum;
+}
+
 }  // namespace plume

@@ -38,6 +38,8 @@ class ScalarPolynomial {
 
   /// The greatest value on [0, 1]. NaN is passed over; NaN where both ends are.
   float maximum() const;
+  /// The least value on [0, 1], likewise.
+  float minimum() const;
 
   /// The integral over [0, 1], exact but for rounding (Simpson's rule, the 3/8 rule).
   double mean() const {

@@ -61,7 +61,7 @@ ok "quiet is quiet" test ! -s err.txt
 ok "the picture is a PNG" grep -q PNG a.png
 ok "the statistics hold what they should" json a.json \
   "j['rays']==4800 and 0<j['rays_hit']<=4800 and j['lost_rays']==0 and j['cells_visited']>0 and set(j['ms'])=={'read','build','render','write'} and j['peak_memory_bytes']>1e6 and 32<j['bytes_per_cell']<60 and j['field']=='radius' and j['plan']"
-for mode in volume mip integral depth; do
+for mode in volume mip minip average integral optical-depth depth cells; do
   ok "mode $mode" "$plume" render body.vts --mode $mode -o $mode.png --size 40x30 --quiet
 done
 for integrator in closed-form table midpoint; do
@@ -102,7 +102,7 @@ for grid in regular.vti uneven.vtr; do
   ok "$grid is told of" sh -c "'$plume' info $grid --json > info.json"
   ok "$grid is a rectilinear grid" json info.json \
     "j['form']=='rectilinear grid' and j['dimensions']==[9,9,9] and j['points']==729 and j['cells']==512 and j['boundary_faces']==384 and j['components']==1 and j['problems']==[] and j['memory_bytes']<5*729 and j['bounds']['high']==[1,1,1]"
-  for mode in volume mip integral depth; do
+  for mode in volume mip minip average integral optical-depth depth cells; do
     ok "$grid, mode $mode" "$plume" render $grid --mode $mode -o $mode.png --size 40x30 --stats g.json --quiet
     ok "no ray is lost in $grid, mode $mode" json g.json "j['rays_hit']>0 and j['lost_rays']==0"
   done

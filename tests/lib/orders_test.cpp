@@ -203,7 +203,8 @@ TEST(Orders, ChangeNothingWhereCellsAreLinearOrConstant) {
        {std::pair{&tetrahedra, "radius"}, std::pair{&grid, "cell_radius"}}) {
     const Scene scene(*mesh, {{field, {}}, false});
     const Camera camera = named_view("iso", scene.bounds());
-    for (const Mode mode : {Mode::volume, Mode::maximum, Mode::integral, Mode::depth}) {
+    for (const Mode mode : {Mode::volume, Mode::maximum, Mode::minimum, Mode::average,
+                            Mode::integral, Mode::optical_depth, Mode::depth, Mode::cell_count}) {
       const Image linear = render(scene, camera, settings_of(ScalarOrder::linear, mode)).image;
       for (const ScalarOrder order : kHigher)
         ASSERT_EQ(render(scene, camera, settings_of(order, mode)).image.rgba, linear.rgba) << field;

@@ -91,6 +91,58 @@ TEST(Render, MaximumOfALinearFieldIsAtAnEndOfTheRay) {
   }
 }
 
+TEST(Render, MinimumAndAverageOfALinearFieldAreTheEndsOfTheRayAndTheirMean) {
+  for (const char* form : kForms) {
+    SCOPED_TRACE(form);
+    Shot shot(form);
+    shot.settings.mode = Mode::minimum;
+    const Image least = render(shot.scene, shot.camera, shot.settings).image;
+    shot.settings.mode = Mode::average;
+    const RenderResult average = render(shot.scene, shot.camera, shot.settings);
+    float low = 1e9f, high = -1e9f;
+    shot.for_each_ray([&](std::size_t i, const Ray& ray, const std::array<double, 2>& span) {
+      if (span[1] < span[0]) {
+        ASSERT_TRUE(std::isnan(least.channel("minimum")->values[i]));
+        ASSERT_TRUE(std::isnan(average.image.channel("average")->values[i]));
+        ASSERT_EQ(average.image.rgba[4 * i + 3], 0);
+        return;
+      }
+      const double first = linear_at(ray, span[0]), last = linear_at(ray, span[1]);
+      ASSERT_NEAR(least.channel("minimum")->values[i], std::min(first, last), 1e-5);
+      const float value = average.image.channel("average")->values[i];
+      ASSERT_NEAR(value, (first + last) / 2, 1e-5) << "pixel " << i;
+      low = std::min(low, value);
+      high = std::max(high, value);
+      const Optics optics = shot.scene.transfer_function().at(value);
+      for (std::size_t c = 0; c < 3; ++c) ASSERT_EQ(average.image.rgba[4 * i + c], optics.color[c]);
+    });
+    ASSERT_TRUE(average.statistics.values);
+    EXPECT_LE((*average.statistics.values)[0], low);
+    EXPECT_GE((*average.statistics.values)[1], high);
+  }
+}
+
+TEST(Render, OpticalDepthAndCellCountAreTheChannelsOfThoseNames) {
+  for (const char* form : kForms) {
+    SCOPED_TRACE(form);
+    Shot shot(form);
+    shot.settings.channels = {"optical_depth", "cell_count"};
+    const Image channels = render(shot.scene, shot.camera, shot.settings).image;
+    shot.settings.channels.clear();
+    for (const auto& [mode, name] :
+         {std::pair{Mode::optical_depth, "optical_depth"}, {Mode::cell_count, "cell_count"}}) {
+      shot.settings.mode = mode;
+      const Image image = render(shot.scene, shot.camera, shot.settings).image;
+      EXPECT_EQ(image.channel(name)->values, channels.channel(name)->values) << name;
+      float greatest = 0;
+      for (const float value : image.channel(name)->values) greatest = std::max(greatest, value);
+      ASSERT_GT(greatest, 0);
+      for (std::size_t i = 0; i < image.channel(name)->values.size(); ++i)
+        ASSERT_EQ(image.rgba[4 * i], image.channel(name)->values[i] / greatest);
+    }
+  }
+}
+
 TEST(Render, DepthIsTheDistanceToTheFirstContribution) {
   for (const char* form : kForms) {
     SCOPED_TRACE(form);

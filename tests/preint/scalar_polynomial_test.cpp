@@ -80,11 +80,16 @@ TEST(ScalarPolynomial, finds_where_it_has_a_value) {
 
 TEST(ScalarPolynomial, finds_its_extrema) {
   for (const auto& [f, p] : seeded_polynomials(2000)) {
-    double greatest = -std::numeric_limits<double>::infinity();
-    for (int i = 0; i <= 4096; ++i) greatest = std::max(greatest, f(i / 4096.0));
+    double greatest = -std::numeric_limits<double>::infinity(), least = -greatest;
+    for (int i = 0; i <= 4096; ++i) {
+      greatest = std::max(greatest, f(i / 4096.0));
+      least = std::min(least, f(i / 4096.0));
+    }
     // A parabola's top between two samples is higher by at most an eighth of the second derivative.
     const double second = 2 * std::abs(f.c[2]) + 6 * std::abs(f.c[3]);
-    ASSERT_NEAR(p.maximum(), greatest, second / 8 / (4096.0 * 4096) + 1e-6 * size_of(f));
+    const double sampling = second / 8 / (4096.0 * 4096) + 1e-6 * size_of(f);
+    ASSERT_NEAR(p.maximum(), greatest, sampling);
+    ASSERT_NEAR(p.minimum(), least, sampling);
     double before = 0;
     for (const double place : p.extrema()) {
       ASSERT_GT(place, before);
@@ -189,6 +194,7 @@ TEST(ScalarPolynomial, is_transparent_where_a_value_is_no_number) {
     EXPECT_EQ(pieces, 1);
     EXPECT_FALSE(std::isfinite(p.mean()));
     EXPECT_GE(p.maximum(), 2);  // of the ends that are numbers
+    EXPECT_FALSE(std::isnan(p.minimum()));
   }
 }
 

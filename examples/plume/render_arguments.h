@@ -1,0 +1,63 @@
+/// What `plume render` is told.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "plume/lib/plume.h"
+
+namespace plume::command {
+
+struct RenderArguments {
+  std::string mesh, solution, output = "picture.png", field, association, size = "1024x768";
+  std::string view = "iso", camera, transfer_function, transfer_range, mode = "volume";
+  std::string integrator = "closed-form", order = "1", cell_data = "constant", background = "white",
+              stats;
+  std::string interval_form = "exponential";
+  std::vector<std::string> channels, isosurfaces, intervals, lights, clip_planes;
+  std::string material, clip_box;
+  double azimuth = 0, elevation = 0, zoom = 1, opacity_scale = 1, view_angle = 0;
+  double unit_distance = 0, early_termination = RenderSettings{}.early_termination;
+  int time_step = -1, samples = 1, threads = 0, bits = 8;
+  bool no_volume = false, parallel = false, merge_points = false, quiet = false, verbose = false;
+};
+
+/// Names on the command line and what they stand for.
+inline const std::vector<std::pair<std::string, IntegratorKind>> kIntegrators{
+    {"closed-form", IntegratorKind::closed_form},
+    {"table", IntegratorKind::table},
+    {"midpoint", IntegratorKind::midpoint}};
+inline const std::vector<std::pair<std::string, CellData>> kCellData{
+    {"constant", CellData::constant}, {"averaged", CellData::averaged}};
+inline const std::vector<std::pair<std::string, IntervalForm>> kIntervalForms{
+    {"exponential", IntervalForm::exponential}, {"linear", IntervalForm::linear}};
+inline const std::vector<std::pair<std::string, ScalarOrder>> kOrders{
+    {"1", ScalarOrder::linear}, {"2", ScalarOrder::quadratic}, {"3", ScalarOrder::cubic}};
+
+template <class T>
+std::vector<std::string> names_of(const std::vector<std::pair<std::string, T>>& choices) {
+  std::vector<std::string> names;
+  for (const auto& choice : choices) names.push_back(choice.first);
+  return names;
+}
+
+template <class T>
+T chosen(const std::vector<std::pair<std::string, T>>& choices, const std::string& name) {
+  for (const auto& choice : choices)
+    if (choice.first == name) return choice.second;
+  return choices.front().second;  // CLI11 has checked the name
+}
+
+inline bool asks_for(const std::vector<std::string>& channels, const char* name) {
+  return std::find(channels.begin(), channels.end(), name) != channels.end();
+}
+
+Mode mode_named(const std::string& name);
+
+/// Adds all options to the command; they are written to `args`, which must outlive it.
+void add_render_options(CLI::App& command, RenderArguments& args);
+
+}  // namespace plume::command

@@ -1,0 +1,45 @@
+/// One ray through the mesh, for a pixel and the further channels.
+#pragma once
+
+#include "plume/lib/clip.h"
+#include "plume/lib/frame.h"
+#include "plume/lib/pixel.h"
+#include "plume/lib/scene_body.h"
+
+namespace plume {
+
+/// Hands the segments of what clip planes keep of a ray to `visit`.
+template <class Walker, class Visit>
+TraceResult trace_clipped(const Frame& frame, const Walkable<Walker>& walkable, Ray ray,
+                          Visit&& visit) {
+  if (!clip(ray, frame.settings().clip_planes)) return {};
+  return trace(walkable.mesh, walkable.boundary, ray, visit, frame.settings().order);
+}
+
+/// Follows the ray of a pixel, gives its segments to `consumer` until that returns false, and fills
+/// in the further channels, for which the ray may go on.
+template <class Walker, class Consumer>
+TraceResult follow_ray(Frame& frame, const Walkable<Walker>& walkable, const PixelPlace& pixel,
+                       Consumer& consumer) {
+  const ChannelPlaces& channels = frame.channels();
+  const Ray ray = frame.ray(pixel);
+  if (!channels.any_of_segments()) return trace_clipped(frame, walkable, ray, consumer);
+  FirstPixel first{frame.optical_depth(), frame.tolerance()};
+  OpticalDepthPixel depth{frame.optical_depth(), frame.tolerance()};
+  CellCountPixel cells;
+  bool more = true, look = true;
+  const TraceResult result = trace_clipped(frame, walkable, ray, [&](const Segment& segment) {
+    if (look) look = first(segment);
+    if (channels.optical_depth) depth(segment);
+    cells(segment);
+    if (more) more = consumer(segment);
+    return more || channels.whole_rays();
+  });
+  frame.put(channels.depth, pixel, first.depth);
+  frame.put(channels.optical_depth, pixel, depth.depth);
+  frame.put(channels.cell_count, pixel, cells.value());
+  frame.put(channels.cell_id, pixel, first.seen() ? walkable.mesh.original_cell(first.cell) : -1.0);
+  return result;
+}
+
+}  // namespace plume

@@ -1,0 +1,91 @@
+#include "plume/lib/frame.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "plume/lib/render_modes.h"
+
+namespace plume {
+
+constexpr std::array<Frame::TilePixel, kTile* kTile> Frame::kTileOrder = [] {
+  std::array<TilePixel, kTile * kTile> order{};
+  for (std::size_t place = 0; place < order.size(); ++place)
+    for (int bit = 0; bit < 5; ++bit) {
+      order[place].x |= static_cast<int>(place >> (2 * bit) & 1) << bit;
+      order[place].y |= static_cast<int>(place >> (2 * bit + 1) & 1) << bit;
+    }
+  return order;
+}();
+
+Frame::Frame(const Scene& scene, const Camera& camera, const RenderSettings& settings)
+    : scene_(scene),
+      settings_(settings),
+      rays_(camera, settings.width, settings.height),
+      optical_depth_(scene.transfer_function()),
+      tolerance_(1e-4 * (static_cast<double>(scene.field().high) - scene.field().low)) {
+  image_.width = settings.width;
+  image_.height = settings.height;
+  image_.rgba.assign(4 * pixel_count(), 0);
+  // In the order in which they were asked for.
+  for (const std::string& name : settings.channels) {
+    if (name != "normal") {
+      channel_place(name);
+      continue;
+    }
+    for (const char* component : {"normal.x", "normal.y", "normal.z"})
+      channels_.normal.push_back(channel_place(component));
+  }
+  if (const ModeInWords& words = in_words(settings.mode); words.channel != nullptr)
+    raw_ = channel_place(words.channel);
+  channels_.depth = wanted("depth");
+  channels_.optical_depth = wanted("optical_depth");
+  channels_.cell_id = wanted("cell_id");
+  channels_.cell_count = wanted("cell_count");
+  channels_.isovalue = wanted("isovalue");
+}
+
+std::size_t Frame::channel_place(const std::string& name) {
+  for (std::size_t i = 0; i < image_.channels.size(); ++i)
+    if (image_.channels[i].name == name) return i;
+  image_.channels.push_back({name, std::vector<float>(pixel_count(), 0)});
+  return image_.channels.size() - 1;
+}
+
+std::optional<std::size_t> Frame::wanted(const std::string& name) {
+  const auto& list = settings_.channels;
+  if (std::find(list.begin(), list.end(), name) == list.end()) return std::nullopt;
+  return channel_place(name);
+}
+
+std::optional<std::array<float, 2>> Frame::shade_raw() {
+  if (!raw_) return std::nullopt;
+  const auto& values = image_.channels[*raw_].values;
+  auto for_each_seen = [&](auto&& visit) {
+    for (std::size_t i = 0; i < values.size(); ++i)
+      if (image_.rgba[4 * i + 3] != 0) visit(values[i], &image_.rgba[4 * i]);
+  };
+  float low = std::numeric_limits<float>::infinity(), high = -low;
+  for_each_seen([&](float value, float*) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  });
+  if (!(low <= high)) return std::nullopt;
+  const std::array<float, 2> range{low, high};
+  const ShadeBy by = in_words(settings_.mode).shade;
+  if (by == ShadeBy::transfer_function) {
+    for_each_seen([&](float value, float* rgba) {
+      const Optics optics = scene_.transfer_function().at(value);
+      std::copy(optics.color.begin(), optics.color.end(), rgba);
+    });
+    return range;
+  }
+  if (by == ShadeBy::gray_from_zero) low = std::min(low, 0.0f);
+  for_each_seen([&](float value, float* rgba) {
+    float shade = high > low ? (value - low) / (high - low) : 1.0f;
+    if (by == ShadeBy::gray_near_is_white && high > low) shade = 1 - shade;
+    std::fill_n(rgba, 3, shade);
+  });
+  return range;
+}
+
+}  // namespace plume

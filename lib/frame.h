@@ -1,0 +1,120 @@
+/// The picture that is being made.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "plume/lib/camera.h"
+#include "plume/lib/render.h"
+#include "plume/preint/optical_depth.h"
+
+namespace plume {
+
+inline constexpr int kTile = 32;  ///< pixels along a tile's edge
+
+/// A tile by its first pixel.
+struct Tile {
+  int x = 0, y = 0;
+};
+
+/// A pixel, and where it is in the image's arrays.
+struct PixelPlace {
+  int x, y;
+  std::size_t index;
+};
+
+/// What rays came to, for the statistics.
+struct Counts {
+  std::uint64_t hit = 0, entries = 0, cells = 0, lost = 0, surfaces = 0, visits = 0;
+  std::uint64_t in_packets = 0;
+
+  void add(const TraceResult& trace) {
+    hit += trace.entries > 0 ? 1 : 0;
+    entries += trace.entries;
+    cells += trace.cells;
+    lost += trace.end == WalkEnd::lost ? 1 : 0;
+  }
+};
+
+/// Places of the image's further channels; nothing where one is not asked for.
+struct ChannelPlaces {
+  std::optional<std::size_t> depth, optical_depth, cell_id, cell_count, isovalue;
+  std::vector<std::size_t> normal;  ///< x, y and z, or none
+
+  /// Channels that every segment must be looked at for.
+  bool any_of_segments() const { return depth || cell_id || whole_rays(); }
+  /// Channels that need rays to go on to their end.
+  bool whole_rays() const { return optical_depth || cell_count; }
+};
+
+/// One frame, shared by all tiles, each of which writes pixels of its own. Requires settings that
+/// check_settings() lets pass; keeps references to the scene and the settings.
+class Frame {
+ public:
+  Frame(const Scene& scene, const Camera& camera, const RenderSettings& settings);
+
+  const Scene& scene() const { return scene_; }
+  const RenderSettings& settings() const { return settings_; }
+  const ChannelPlaces& channels() const { return channels_; }
+  /// Of the volume's transfer function: what channels and modes of optical depth ask.
+  const OpticalDepth& optical_depth() const { return optical_depth_; }
+  /// Of the linear parts of segments above order 1, in the field's unit.
+  double tolerance() const { return tolerance_; }
+  Image& image() { return image_; }
+  std::size_t pixel_count() const {
+    return static_cast<std::size_t>(settings_.width) * static_cast<std::size_t>(settings_.height);
+  }
+  int tiles_across() const { return (settings_.width + kTile - 1) / kTile; }
+  int tiles_down() const { return (settings_.height + kTile - 1) / kTile; }
+
+  /// The ray through the middle of a pixel.
+  Ray ray(const PixelPlace& pixel) const { return rays_(pixel.x + 0.5, pixel.y + 0.5); }
+  float* rgba(const PixelPlace& pixel) { return &image_.rgba[4 * pixel.index]; }
+  void put(const std::optional<std::size_t>& channel, const PixelPlace& pixel, double value) {
+    if (channel) image_.channels[*channel].values[pixel.index] = static_cast<float>(value);
+  }
+  /// The pixel's value in a mode that shows one number a ray, and whether there is one.
+  void put_raw(const PixelPlace& pixel, double value, bool seen) {
+    put(raw_, pixel, value);
+    rgba(pixel)[3] = seen ? 1.0f : 0.0f;
+  }
+  /// Colours the numbers of such a mode, once all pixels have one; says what they run from and to.
+  std::optional<std::array<float, 2>> shade_raw();
+
+  /// Calls visit(PixelPlace) for a tile's pixels along a Z-curve: neighbours in the list, which
+  /// share packets, are neighbours in the picture and meet the same cells.
+  template <class Visit>
+  void for_each_pixel(const Tile& tile, Visit&& visit) const {
+    for (const auto& [along, down] : kTileOrder) {
+      const int x = tile.x + along, y = tile.y + down;
+      if (x >= settings_.width || y >= settings_.height) continue;
+      visit(PixelPlace{x, y,
+                       static_cast<std::size_t>(y) * static_cast<std::size_t>(settings_.width) +
+                           static_cast<std::size_t>(x)});
+    }
+  }
+
+ private:
+  struct TilePixel {
+    int x, y;
+  };
+  static const std::array<TilePixel, kTile * kTile> kTileOrder;
+
+  std::size_t channel_place(const std::string& name);
+  std::optional<std::size_t> wanted(const std::string& name);
+
+  const Scene& scene_;
+  const RenderSettings& settings_;
+  PixelRays rays_;
+  OpticalDepth optical_depth_;
+  double tolerance_;
+  Image image_;
+  ChannelPlaces channels_;
+  std::optional<std::size_t> raw_;
+};
+
+}  // namespace plume

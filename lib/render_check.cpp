@@ -1,0 +1,59 @@
+#include "plume/lib/render_check.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "plume/lib/render_plan.h"
+#include "plume/mesh/error.h"
+
+namespace plume {
+namespace {
+
+const std::vector<std::string> kChannels{"depth",      "optical_depth", "cell_id",
+                                         "cell_count", "isovalue",      "normal"};
+
+void check_channels(const Scene& scene, const RenderSettings& settings) {
+  for (const std::string& channel : settings.channels)
+    if (std::find(kChannels.begin(), kChannels.end(), channel) == kChannels.end())
+      throw Error(
+          fmt::format("no channel '{}'; there are: {}", channel, fmt::join(kChannels, " ")));
+  for (const std::string& channel : settings.channels)
+    if ((channel == "isovalue" || channel == "normal") && !is_classified(scene, settings))
+      throw Error(fmt::format(
+          "channel '{}': it is of isosurfaces and intervals, in the modes volume and depth; give "
+          "the scene's classification one",
+          channel));
+  const bool normals = std::count(settings.channels.begin(), settings.channels.end(), "normal") > 0;
+  if ((settings.lighting || normals) && !scene.has_gradients())
+    throw Error(fmt::format("{} the scene keeps no gradients; set SceneOptions::keep_gradients",
+                            settings.lighting ? "light:" : "channel 'normal':"));
+}
+
+}  // namespace
+
+void check_settings(const Scene& scene, const RenderSettings& settings) {
+  auto in_range = [](int pixels) { return pixels >= 1 && pixels <= 65536; };
+  if (!in_range(settings.width) || !in_range(settings.height))
+    throw Error(fmt::format("a picture of {}x{} pixels: each side must be 1 to 65536",
+                            settings.width, settings.height));
+  if (!(settings.early_termination >= 0 && settings.early_termination < 1))
+    throw Error(fmt::format("early termination at {}: it must be at least 0 and below 1",
+                            settings.early_termination));
+  for (const ClipPlane& plane : settings.clip_planes)
+    if (const auto problem = problem_of(plane)) throw Error(*problem);
+  if (settings.threads < 0)
+    throw Error(fmt::format("{} threads: it must be 1 or more, or 0 for all", settings.threads));
+  if (settings.integrator.samples < 1)
+    throw Error(fmt::format("{} samples per segment: at least 1", settings.integrator.samples));
+  if (settings.order < ScalarOrder::linear || settings.order > ScalarOrder::cubic)
+    throw Error(fmt::format("order {}: it must be 1 (linear), 2 (quadratic) or 3 (cubic)",
+                            static_cast<int>(settings.order)));
+  check_channels(scene, settings);
+  if (settings.lighting)
+    if (const auto problem = settings.lighting->problem())
+      throw Error(fmt::format("light: {}", *problem));
+}
+
+}  // namespace plume
