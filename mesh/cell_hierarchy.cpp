@@ -16,18 +16,21 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 constexpr std::size_t kLeaf = kLeafCells;
 
-// A bit for each cell whose volume is not positive, or that is somewhere thinner than kLeastWidth. A
-// cell's width is six times its volume divided by twice the area of a face, or by the cross product
-// of two opposite edges. Rounding is far below what a point may be moved by.
+// A bit for each cell whose volume is not positive, or that is somewhere thinner than kLeastWidth.
+// A cell's width is six times its volume divided by twice the area of a face, or by the cross
+// product of two opposite edges. Rounding is far below what a point may be moved by.
 unsigned thin_cells(const LeafCells& p) {
   constexpr float kSquared = kLeastWidth * kLeastWidth;
   alignas(64) int wide[kLeaf];
   for (std::size_t i = 0; i < kLeaf; ++i) {
-    const float ax = p.position[0][1][i] - p.position[0][0][i], ay = p.position[1][1][i] - p.position[1][0][i];
+    const float ax = p.position[0][1][i] - p.position[0][0][i],
+                ay = p.position[1][1][i] - p.position[1][0][i];
     const float az = p.position[2][1][i] - p.position[2][0][i];
-    const float bx = p.position[0][2][i] - p.position[0][0][i], by = p.position[1][2][i] - p.position[1][0][i];
+    const float bx = p.position[0][2][i] - p.position[0][0][i],
+                by = p.position[1][2][i] - p.position[1][0][i];
     const float bz = p.position[2][2][i] - p.position[2][0][i];
-    const float cx = p.position[0][3][i] - p.position[0][0][i], cy = p.position[1][3][i] - p.position[1][0][i];
+    const float cx = p.position[0][3][i] - p.position[0][0][i],
+                cy = p.position[1][3][i] - p.position[1][0][i];
     const float cz = p.position[2][3][i] - p.position[2][0][i];
     const float abx = ay * bz - az * by, aby = az * bx - ax * bz, abz = ax * by - ay * bx;
     const float bcx = by * cz - bz * cy, bcy = bz * cx - bx * cz, bcz = bx * cy - by * cx;
@@ -44,8 +47,8 @@ unsigned thin_cells(const LeafCells& p) {
                               squared(abx + bcx + cax, aby + bcy + cay, abz + bcz + caz)};
     float largest = squares[0];
     for (std::size_t s = 1; s < 7; ++s) largest = squares[s] > largest ? squares[s] : largest;
-    wide[i] = static_cast<int>(volume > 0) &
-              static_cast<int>(volume * volume >= kSquared * largest);
+    wide[i] =
+        static_cast<int>(volume > 0) & static_cast<int>(volume * volume >= kSquared * largest);
   }
   unsigned thin = 0;
   for (std::size_t i = 0; i < kLeaf; ++i) thin |= (wide[i] != 0 ? 0u : 1u) << i;

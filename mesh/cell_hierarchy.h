@@ -66,17 +66,14 @@ struct CellHierarchy {
     return share > 0 ? share < 15 ? static_cast<int>(share) : 15 : 0;
   }
   /// Whether the leaf of a cell has a special one in it.
-  bool near_special(std::uint32_t cell) const {
-    return leaves[cell / kLeafCells].special != 0;
-  }
+  bool near_special(std::uint32_t cell) const { return leaves[cell / kLeafCells].special != 0; }
 };
 
 /// Widens the range of the values at a cell's points to that of the scalars measured on its faces.
 /// Such a one is a sum of at most four values whose weights are not negative and sum to 1 within a
 /// few units in the last place of a double, rounded to a float: rounding is monotone.
 inline void widen_range(float& least, float& greatest) {
-  const double margin =
-      0x1p-45 * std::max(std::abs(double{least}), std::abs(double{greatest}));
+  const double margin = 0x1p-45 * std::max(std::abs(double{least}), std::abs(double{greatest}));
   least = static_cast<float>(least - margin);
   greatest = static_cast<float>(greatest + margin);
 }

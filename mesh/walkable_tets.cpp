@@ -68,8 +68,7 @@ std::vector<std::uint64_t> bits_of(const std::vector<std::uint8_t>& flags) {
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bits.size(), 1024), [&](const auto& range) {
     for (std::size_t word = range.begin(); word != range.end(); ++word) {
       const std::size_t end = std::min(flags.size(), 64 * word + 64);
-      for (std::size_t c = 64 * word; c < end; ++c)
-        bits[word] |= std::uint64_t{flags[c]} << c % 64;
+      for (std::size_t c = 64 * word; c < end; ++c) bits[word] |= std::uint64_t{flags[c]} << c % 64;
     }
   });
   return bits;

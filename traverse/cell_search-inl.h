@@ -139,8 +139,8 @@ class TetTest {
       const V margin = hn::Mul(rounding, hn::Set(d, most)), minus = hn::Neg(margin);
       M all_above = hn::Not(none), all_below = all_above;
       // Twice a face's area times how far the scalar on it is above the value.
-      auto add = [&](std::size_t face, const Edge& ab, std::size_t c, const Edge& bc,
-                     std::size_t a, const Edge& ca, std::size_t b) HWY_ATTR {
+      auto add = [&](std::size_t face, const Edge& ab, std::size_t c, const Edge& bc, std::size_t a,
+                     const Edge& ca, std::size_t b) HWY_ATTR {
         const V sum = hn::MulAdd(
             ab.area, hn::Set(d, above[c]),
             hn::MulAdd(bc.area, hn::Set(d, above[a]), hn::Mul(ca.area, hn::Set(d, above[b]))));
@@ -205,9 +205,8 @@ class CellSearch {
         forwards_(bundle.sign() > 0),
         target_(target) {
     for (std::size_t group = 0; group * Lanes() < bundle.size(); ++group)
-      hulls_[group] =
-          HullTest(bundle, bundle.hull(group * Lanes(),
-                                       std::min(bundle.size(), (group + 1) * Lanes())));
+      hulls_[group] = HullTest(
+          bundle, bundle.hull(group * Lanes(), std::min(bundle.size(), (group + 1) * Lanes())));
   }
 
   void Run() {
@@ -254,8 +253,8 @@ class CellSearch {
     std::uint32_t matters = 0, open = 0;
     HWY_ALIGN float keys[CellHierarchy::kWidth];
     for (std::size_t from = 0; from < CellHierarchy::kWidth; from += hn::Lanes(d)) {
-      const auto key = forwards_ ? hn::Load(d, node.low[z_] + from)
-                                 : hn::Neg(hn::Load(d, node.high[z_] + from));
+      const auto key =
+          forwards_ ? hn::Load(d, node.low[z_] + from) : hn::Neg(hn::Load(d, node.high[z_] + from));
       hn::Store(key, d, keys + from);
       matters |= BitsOf(d, Matters(d, node.least + from, node.greatest + from)) << from;
       open |= BitsOf(d, hn::And(hull_.Meets(d, node.low, node.high, from),
@@ -300,9 +299,9 @@ class CellSearch {
     const ReadLeaf& leaf = leaves_.read(number, wanted);
     HWY_ALIGN float keys[kLeafCells];
     for (std::size_t from = 0; from < kLeafCells; from += hn::Lanes(d))
-      hn::Store(forwards_ ? hn::Load(d, leaf.low[z_] + from)
-                          : hn::Neg(hn::Load(d, leaf.high[z_] + from)),
-                d, keys + from);
+      hn::Store(
+          forwards_ ? hn::Load(d, leaf.low[z_] + from) : hn::Neg(hn::Load(d, leaf.high[z_] + from)),
+          d, keys + from);
     for (std::size_t group = 0; group * Lanes() < bundle_.size(); ++group) {
       const std::size_t first_ray = group * Lanes();
       const float* const limits = target_.limits() + first_ray;

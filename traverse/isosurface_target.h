@@ -22,11 +22,7 @@ class IsosurfaceTarget {
   IsosurfaceTarget(const WalkableTets& mesh, const CellHierarchy& hierarchy,
                    std::span<const SoughtIsovalue> isovalues, const RayBundle& bundle,
                    std::span<SearchedRay> found)
-      : mesh_(mesh),
-        hierarchy_(hierarchy),
-        isovalues_(isovalues),
-        bundle_(bundle),
-        found_(found) {
+      : mesh_(mesh), hierarchy_(hierarchy), isovalues_(isovalues), bundle_(bundle), found_(found) {
     for (const SoughtIsovalue& sought : isovalues) windows_.push_back({sought.value, sought.value});
     limits_.fill(-kInfinity);
     std::fill_n(limits_.begin(), bundle.size(), kInfinity);

@@ -40,8 +40,7 @@ class LeafCache {
     place.leaf = leaf;
     place.have |= missing;
     place.cells.read(*mesh_, leaf, hierarchy_->leaves[leaf].first_boundary, missing);
-    for (std::size_t a = 0; a < 3; ++a)
-      bound(place.cells.position[a], place.low[a], place.high[a]);
+    for (std::size_t a = 0; a < 3; ++a) bound(place.cells.position[a], place.low[a], place.high[a]);
     bound(place.cells.scalar, place.least, place.greatest);
     for (std::size_t i = 0; i < kLeafCells; ++i) widen_range(place.least[i], place.greatest[i]);
     return place;
@@ -60,9 +59,7 @@ class LeafCache {
   static constexpr int kBits = 8;
   static constexpr std::size_t kLeaves = std::size_t{1} << kBits;
 
-  static std::size_t place_of(std::uint32_t leaf) {
-    return leaf * 0x9E3779B1u >> (32 - kBits);
-  }
+  static std::size_t place_of(std::uint32_t leaf) { return leaf * 0x9E3779B1u >> (32 - kBits); }
 
   // Comparisons with NaN are false.
   static void bound(const float (&values)[4][kLeafCells], float* least, float* greatest) {

@@ -19,7 +19,7 @@ namespace plume {
 /// fails, or that is too much for the lists, is declined: it must be walked.
 class SearchedRay {
  public:
-  static constexpr std::size_t kMostSegments = 8, kMostBoundaries = 12;
+  static constexpr std::size_t kMostSegments = 16, kMostBoundaries = 12;
 
   void clear() {
     size_ = boundaries_ = cells_ = 0;
