@@ -10,6 +10,7 @@
 #include "plume/lib/follow_ray.h"
 #include "plume/lib/render_plan.h"
 #include "plume/lib/tiles.h"
+#include "plume/mesh/cell_hierarchy.h"
 #include "plume/traverse/cell_search.h"
 
 namespace plume {

@@ -55,30 +55,33 @@ unsigned thin_cells(const LeafCells& p) {
   return thin;
 }
 
+// Halving, so that compilers use vectors. Destroys the values.
+float least_of(float* values) {
+  for (std::size_t half = kLeaf / 2; half > 0; half /= 2)
+    for (std::size_t i = 0; i < half; ++i)
+      values[i] = values[half + i] < values[i] ? values[half + i] : values[i];
+  return values[0];
+}
+float greatest_of(float* values) {
+  for (std::size_t half = kLeaf / 2; half > 0; half /= 2)
+    for (std::size_t i = 0; i < half; ++i)
+      values[i] = values[half + i] > values[i] ? values[half + i] : values[i];
+  return values[0];
+}
+
 struct Cluster {
   std::array<float, 3> low{kInfinity, kInfinity, kInfinity};
   std::array<float, 3> high{-kInfinity, -kInfinity, -kInfinity};
   float least = kInfinity, greatest = -kInfinity;
   bool special = false;
 
-  void add(const LeafCells& p) {
-    auto range = [](const float(&values)[4][kLeaf], float& from, float& to) {
-      // Comparisons with NaN are false.
-      float lows[kLeaf], highs[kLeaf];
-      std::fill_n(lows, kLeaf, kInfinity);
-      std::fill_n(highs, kLeaf, -kInfinity);
-      for (std::size_t c = 0; c < 4; ++c)
-        for (std::size_t i = 0; i < kLeaf; ++i) {
-          lows[i] = values[c][i] < lows[i] ? values[c][i] : lows[i];
-          highs[i] = values[c][i] > highs[i] ? values[c][i] : highs[i];
-        }
-      from = *std::min_element(lows, lows + kLeaf);
-      to = *std::max_element(highs, highs + kLeaf);
-    };
-    range(p.position[0], low[0], high[0]);
-    range(p.position[1], low[1], high[1]);
-    range(p.position[2], low[2], high[2]);
-    range(p.scalar, least, greatest);
+  void add(const LeafCells& cells) {
+    float lows[kLeaf], highs[kLeaf];
+    for (std::size_t a = 0; a < 3; ++a) {
+      LeafCells::bound(cells.position[a], lows, highs);
+      low[a] = least_of(lows);
+      high[a] = greatest_of(highs);
+    }
   }
 
   // What is missing is never looked at, wherever its box is.
@@ -107,18 +110,27 @@ Cluster joined(const CellHierarchy::Node& node, std::size_t children) {
   return all;
 }
 
-// See CellHierarchy::cell_ranges.
-std::uint8_t share_of_range(const LeafCells& cells, std::size_t i, float least, float greatest) {
-  float from = kInfinity, to = -kInfinity;
-  for (std::size_t c = 0; c < 4; ++c) {
-    from = cells.scalar[c][i] < from ? cells.scalar[c][i] : from;
-    to = cells.scalar[c][i] > to ? cells.scalar[c][i] : to;
+// The leaf's range, and the cells' in sixteenths of it.
+void take_ranges(const LeafCells& cells, Cluster& cluster, CellHierarchy::Leaf& leaf) {
+  float least[kLeaf], greatest[kLeaf], lows[kLeaf], highs[kLeaf];
+  LeafCells::bound(cells.scalar, least, greatest);
+  for (std::size_t i = 0; i < kLeaf; ++i) widen_range(least[i], greatest[i]);
+  // Where a cell has no value, widening makes NaN, which is never less than anything.
+  for (std::size_t i = 0; i < kLeaf; ++i) {
+    lows[i] = least[i] < kInfinity ? least[i] : kInfinity;
+    highs[i] = greatest[i] > -kInfinity ? greatest[i] : -kInfinity;
   }
-  if (!(from <= to)) return 15;
-  widen_range(from, to);
-  const int first = CellHierarchy::sixteenth(from, least, greatest);
-  const int last = CellHierarchy::sixteenth(to, least, greatest);
-  return static_cast<std::uint8_t>(first | last << 4);
+  cluster.least = least_of(lows);
+  cluster.greatest = greatest_of(highs);
+  const CellHierarchy::Sixteenths sixteenths(cluster.least, cluster.greatest);
+  int first[kLeaf], last[kLeaf];
+  for (std::size_t i = 0; i < kLeaf; ++i) {
+    first[i] = sixteenths.of(least[i]);
+    last[i] = sixteenths.of(greatest[i]);
+  }
+  for (std::size_t i = 0; i < kLeaf; ++i)
+    leaf.ranges[i] =
+        static_cast<std::uint8_t>(least[i] <= greatest[i] ? first[i] | last[i] << 4 : 15);
 }
 
 std::uint32_t first_boundary(const WalkableTets& mesh, std::uint32_t leaf) {
@@ -175,9 +187,7 @@ CellHierarchy make_cell_hierarchy(const WalkableTets& mesh) {
     Cluster cluster;
     cluster.add(cells);
     cluster.special = special != 0;
-    if (cluster.least <= cluster.greatest) widen_range(cluster.least, cluster.greatest);
-    for (std::size_t i = 0; i < kLeaf; ++i)
-      kept.ranges[i] = share_of_range(cells, i, cluster.least, cluster.greatest);
+    take_ranges(cells, cluster, kept);
     return cluster;
   });
   for (std::size_t level = 1; level + 1 < sizes.size(); ++level)

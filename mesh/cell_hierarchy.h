@@ -60,11 +60,20 @@ struct CellHierarchy {
     return nodes.size() * sizeof(Node) + special.size() + leaves.size() * sizeof(Leaf) +
            levels.size() * sizeof(std::uint32_t);
   }
-  /// The sixteenth of a range in which a scalar is, or is nearest to: monotone, whatever rounding.
-  static int sixteenth(float scalar, float least, float greatest) {
-    const float share = (scalar - least) / (greatest - least) * 16;
-    return share > 0 ? share < 15 ? static_cast<int>(share) : 15 : 0;
-  }
+  /// Sixteenths of a range.
+  class Sixteenths {
+   public:
+    Sixteenths(float least, float greatest) : least_(least), per_(16 / (greatest - least)) {}
+    /// Where a scalar is, or what it is nearest to, from 0 to 15: monotone whatever the rounding.
+    int of(float scalar) const {
+      // No number becomes 0.
+      const float share = (scalar - least_) * per_;
+      return static_cast<int>(std::min(15.0f, std::max(0.0f, share)));
+    }
+
+   private:
+    float least_, per_;
+  };
   /// Whether the leaf of a cell has a special one in it.
   bool near_special(std::uint32_t cell) const { return leaves[cell / kLeafCells].special != 0; }
 };

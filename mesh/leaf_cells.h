@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "plume/mesh/cell_hierarchy.h"
 
@@ -19,6 +20,19 @@ struct LeafCells {
   unsigned odd = 0, boundary = 0;
   /// Of each cell: one bit for each face at the boundary, by the rank of the point it leaves out.
   std::array<std::uint8_t, kLeafCells> open_faces{};
+
+  /// The least and greatest of each cell's four values; infinity and -infinity where all are NaN.
+  static void bound(const float (&values)[4][kLeafCells], float* least, float* greatest) {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    std::fill_n(least, kLeafCells, kInfinity);
+    std::fill_n(greatest, kLeafCells, -kInfinity);
+    // A comparison with NaN is false.
+    for (std::size_t c = 0; c < 4; ++c)
+      for (std::size_t i = 0; i < kLeafCells; ++i) {
+        least[i] = values[c][i] < least[i] ? values[c][i] : least[i];
+        greatest[i] = values[c][i] > greatest[i] ? values[c][i] : greatest[i];
+      }
+  }
 
   /// Reads the cells whose bit is set in `wanted`; the others keep what was there. `face` is the
   /// leaf's CellHierarchy::Leaf::first_boundary.

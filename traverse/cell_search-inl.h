@@ -336,12 +336,12 @@ class CellSearch {
   unsigned MayMatter(std::uint32_t leaf) const {
     const CellHierarchy::Node& node = hierarchy_.nodes[leaf / CellHierarchy::kWidth];
     const std::size_t child = leaf % CellHierarchy::kWidth;
-    const float least = node.least[child], greatest = node.greatest[child];
+    const CellHierarchy::Sixteenths sixteenths(node.least[child], node.greatest[child]);
     const auto& ranges = hierarchy_.leaves[leaf].ranges;
     unsigned cells = 0;
     for (const ScalarWindow& window : target_.windows()) {
-      const int from = CellHierarchy::sixteenth(window.from, least, greatest);
-      const int below = CellHierarchy::sixteenth(window.below, least, greatest);
+      const int from = sixteenths.of(window.from);
+      const int below = sixteenths.of(window.below);
       for (unsigned i = 0; i < kLeafCells; ++i)
         cells |= static_cast<unsigned>((ranges[i] & 15) <= below && ranges[i] >> 4 >= from) << i;
     }

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "plume/mesh/cell_hierarchy.h"
@@ -40,8 +39,9 @@ class LeafCache {
     place.leaf = leaf;
     place.have |= missing;
     place.cells.read(*mesh_, leaf, hierarchy_->leaves[leaf].first_boundary, missing);
-    for (std::size_t a = 0; a < 3; ++a) bound(place.cells.position[a], place.low[a], place.high[a]);
-    bound(place.cells.scalar, place.least, place.greatest);
+    for (std::size_t a = 0; a < 3; ++a)
+      LeafCells::bound(place.cells.position[a], place.low[a], place.high[a]);
+    LeafCells::bound(place.cells.scalar, place.least, place.greatest);
     for (std::size_t i = 0; i < kLeafCells; ++i) widen_range(place.least[i], place.greatest[i]);
     return place;
   }
@@ -60,18 +60,6 @@ class LeafCache {
   static constexpr std::size_t kLeaves = std::size_t{1} << kBits;
 
   static std::size_t place_of(std::uint32_t leaf) { return leaf * 0x9E3779B1u >> (32 - kBits); }
-
-  // Comparisons with NaN are false.
-  static void bound(const float (&values)[4][kLeafCells], float* least, float* greatest) {
-    constexpr float kInfinity = std::numeric_limits<float>::infinity();
-    std::fill_n(least, kLeafCells, kInfinity);
-    std::fill_n(greatest, kLeafCells, -kInfinity);
-    for (std::size_t c = 0; c < 4; ++c)
-      for (std::size_t i = 0; i < kLeafCells; ++i) {
-        least[i] = values[c][i] < least[i] ? values[c][i] : least[i];
-        greatest[i] = values[c][i] > greatest[i] ? values[c][i] : greatest[i];
-      }
-  }
 
   const WalkableTets* mesh_;
   const CellHierarchy* hierarchy_;
