@@ -84,9 +84,11 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   plan = describe_plan(scene, settings);
   const auto why_walked = no_search(scene, settings);
   if (!why_walked)
-    plan.push_back(
-        fmt::format("rays: through a hierarchy of cells ({}), as only isosurfaces are to be seen",
-                    scene.body().hierarchy.made() ? "made before" : "made for this picture"));
+    plan.push_back(fmt::format(
+        "rays: through a hierarchy of cells ({}), as only {}",
+        scene.body().hierarchy.made() ? "made before" : "made for this picture",
+        is_classified(scene, settings) ? "isosurfaces are to be seen"
+                                       : "cells with a greater or lesser scalar need a look"));
   else if (is_classified(scene, settings) && !scene.classification().isosurfaces.empty())
     plan.push_back(fmt::format("rays: walked, not through a hierarchy of cells: {}", *why_walked));
   else if (has_packets(scene))

@@ -1,7 +1,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <string>
 #include <variant>
 #include <vector>
@@ -9,6 +9,7 @@
 #include "plume/lib/classified_pixels.h"
 #include "plume/lib/follow_ray.h"
 #include "plume/lib/render_plan.h"
+#include "plume/lib/tile_bundles.h"
 #include "plume/lib/tiles.h"
 #include "plume/mesh/cell_hierarchy.h"
 #include "plume/traverse/cell_search.h"
@@ -38,86 +39,43 @@ class SearchedTiles : public TileMaker {
         pixels_(frame, walkable, integrator),
         isovalues_(sought_isovalues(frame.scene().classification())),
         connected_(kGap * frame.scene().bounds().diagonal()),
-        searches_([&] { return Search(walkable.mesh, hierarchy); }) {}
+        bundles_([&] { return TileBundles(walkable.mesh, hierarchy); }) {}
 
   void make(const Tile& tile, Counts& counts) override {
-    Search& search = searches_.local();
-    search.size = 0;
-    frame_.for_each_pixel(tile, [&](const PixelPlace& place) {
-      if (search.size == search.rays.size()) search.rays.emplace_back();
-      TileRay& added = search.rays[search.size++];
-      added.place = place;
-      added.ray = frame_.ray(place);
-      added.valid = added.frame.set(added.ray, walkable_.mesh.frame);
-    });
-    std::size_t first = 0;
-    for (std::size_t i = 0; i < search.size; ++i) {
-      TileRay& ray = search.rays[i];
-      if (ray.valid && search.bundle.takes(ray.frame)) {
-        search.bundle.add(ray.ray, ray.frame);
-      } else {
-        finish(search, first, counts);
-        first = i;
-        if (ray.valid) {
-          search.bundle.add(ray.ray, ray.frame);
-        } else {
-          walk(ray, counts);
-          first = i + 1;
-        }
-      }
-    }
-    finish(search, first, counts);
+    TileBundles& bundles = bundles_.local();
+    auto walk = [&](const TileBundles::TileRay& ray) {
+      counts.add(pixels_.make(ray.place, ray.ray, counts, [&](auto& pixel) {
+        return trace_clipped(frame_, walkable_, ray.ray, pixel);
+      }));
+    };
+    bundles.for_each(
+        frame_, tile,
+        [&] {
+          find_isosurfaces(bundles.leaves, isovalues_, connected_, bundles.bundle, bundles.found);
+        },
+        [&](const TileBundles::TileRay& ray, std::size_t i) {
+          const SearchedRay& found = bundles.found[i];
+          if (found.declined()) return walk(ray);
+          ++counts.searched;
+          counts.add(pixels_.make(ray.place, ray.ray, counts,
+                                  [&](auto& pixel) { return give(found, pixel); }));
+        },
+        walk);
   }
 
  private:
-  struct TileRay {
-    PixelPlace place;
-    Ray ray;
-    ShearedFrame frame;
-    bool valid = false;
-  };
-  // What each thread has of its own.
-  struct Search {
-    Search(const WalkableTets& mesh, const CellHierarchy& hierarchy) : leaves(mesh, hierarchy) {}
-    LeafCache leaves;
-    RayBundle bundle;
-    std::array<SearchedRay, RayBundle::kRays> found;
-    std::vector<TileRay> rays;  // the first `size`: what there is is used again as it is
-    std::size_t size = 0;
-  };
-
-  // Makes the pixels of the rays in the bundle, which begin with that one.
-  void finish(Search& search, std::size_t first, Counts& counts) {
-    const std::size_t size = search.bundle.size();
-    find_isosurfaces(search.leaves, isovalues_, connected_, search.bundle, search.found);
-    for (std::size_t i = 0; i < size; ++i) {
-      const TileRay& ray = search.rays[first + i];
-      const SearchedRay& found = search.found[i];
-      if (found.declined()) {
-        walk(ray, counts);
-        continue;
-      }
-      ++counts.searched;
-      counts.add(pixels_.make(ray.place, ray.ray, counts, [&](auto& pixel) {
-        TraceResult result;
-        result.entries = static_cast<std::uint32_t>(found.entries());
-        result.cells = found.cells();
-        for (const Segment& segment : found.segments()) {
-          pixel.pass_over();
-          if (pixel(segment)) continue;
-          result.end = WalkEnd::stopped;
-          break;
-        }
-        return result;
-      }));
+  template <class Pixel>
+  static TraceResult give(const SearchedRay& found, Pixel& pixel) {
+    TraceResult result;
+    result.entries = static_cast<std::uint32_t>(found.entries());
+    result.cells = found.cells();
+    for (const Segment& segment : found.segments()) {
+      pixel.pass_over();
+      if (pixel(segment)) continue;
+      result.end = WalkEnd::stopped;
+      break;
     }
-    search.bundle.clear();
-  }
-
-  void walk(const TileRay& ray, Counts& counts) {
-    counts.add(pixels_.make(ray.place, ray.ray, counts, [&](auto& pixel) {
-      return trace_clipped(frame_, walkable_, ray.ray, pixel);
-    }));
+    return result;
   }
 
   Frame& frame_;
@@ -125,16 +83,59 @@ class SearchedTiles : public TileMaker {
   ClassifiedPixels<Tets, Integrator> pixels_;
   const std::vector<SoughtIsovalue> isovalues_;
   const double connected_;
-  tbb::enumerable_thread_specific<Search> searches_;
+  tbb::enumerable_thread_specific<TileBundles> bundles_;
+};
+
+// The modes maximum and minimum.
+template <class Pixel>
+class ExtremeTiles : public TileMaker {
+ public:
+  ExtremeTiles(Frame& frame, const Tets& walkable, const CellHierarchy& hierarchy)
+      : frame_(frame),
+        walkable_(walkable),
+        bundles_([&] { return TileBundles(walkable.mesh, hierarchy); }) {}
+
+  void make(const Tile& tile, Counts& counts) override {
+    TileBundles& bundles = bundles_.local();
+    auto walk = [&](const TileBundles::TileRay& ray) {
+      Pixel pixel;
+      counts.add(follow_ray(frame_, walkable_, ray.place, pixel));
+      frame_.put_raw(ray.place, pixel.value(), pixel.seen());
+    };
+    const auto find = frame_.settings().mode == Mode::maximum ? find_greatest : find_least;
+    bundles.for_each(
+        frame_, tile, [&] { find(bundles.leaves, bundles.bundle, bundles.found, bundles.values); },
+        [&](const TileBundles::TileRay& ray, std::size_t i) {
+          const SearchedRay& found = bundles.found[i];
+          if (found.declined()) return walk(ray);
+          ++counts.searched;
+          TraceResult result;
+          result.entries = static_cast<std::uint32_t>(found.entries());
+          result.cells = found.cells();
+          counts.add(result);
+          // As if the best segment were the only one.
+          Pixel pixel;
+          const float value = bundles.values[i];
+          if (std::isfinite(value)) pixel(Segment{0, 0, value, value, kNone});
+          frame_.put_raw(ray.place, pixel.value(), pixel.seen());
+        },
+        walk);
+  }
+
+ private:
+  Frame& frame_;
+  const Tets& walkable_;
+  tbb::enumerable_thread_specific<TileBundles> bundles_;
 };
 
 }  // namespace
 
 std::optional<std::string> no_search(const Scene& scene, const RenderSettings& settings) {
   const Classification& classification = scene.classification();
-  if (!is_classified(scene, settings) || classification.isosurfaces.empty())
+  const bool extreme = settings.mode == Mode::maximum || settings.mode == Mode::minimum;
+  if (!extreme && (!is_classified(scene, settings) || classification.isosurfaces.empty()))
     return "there is no isosurface to look for";
-  if (classification.volume || !classification.intervals.empty())
+  if (!extreme && (classification.volume || !classification.intervals.empty()))
     return "all cells that are not empty are to be seen, not isosurfaces alone";
   if (!std::holds_alternative<std::unique_ptr<Tets>>(scene.body().walkable))
     return "it is for tetrahedra";
@@ -150,6 +151,10 @@ std::optional<std::string> no_search(const Scene& scene, const RenderSettings& s
 std::unique_ptr<TileMaker> searched_tiles(Frame& frame, const Integrator& integrator) {
   const Tets& walkable = *std::get<std::unique_ptr<Tets>>(frame.scene().body().walkable);
   const CellHierarchy& hierarchy = frame.scene().body().hierarchy.of(walkable.mesh);
+  if (frame.settings().mode == Mode::maximum)
+    return std::make_unique<ExtremeTiles<MaximumPixel>>(frame, walkable, hierarchy);
+  if (frame.settings().mode == Mode::minimum)
+    return std::make_unique<ExtremeTiles<MinimumPixel>>(frame, walkable, hierarchy);
   return std::visit(
       [&](const auto& chosen) -> std::unique_ptr<TileMaker> {
         return std::make_unique<SearchedTiles<std::decay_t<decltype(chosen)>>>(frame, walkable,

@@ -209,7 +209,12 @@ class CellSearch {
           bundle, bundle.hull(group * Lanes(), std::min(bundle.size(), (group + 1) * Lanes())));
   }
 
-  void Run() {
+  // All that matters and all that is special; or the special cells alone, of which only faces at
+  // the boundary and thin cells count, or the others alone.
+  enum class Pass { all, special, inside };
+
+  void Run(Pass pass) {
+    pass_ = pass;
     stack_[0] = {-std::numeric_limits<float>::infinity(),
                  static_cast<std::uint32_t>(hierarchy_.levels.size() - 1), 0, true};
     size_ = 1;
@@ -238,6 +243,8 @@ class CellSearch {
   // Whether the scalars between these matter.
   template <class D>
   HWY_INLINE hn::Mask<D> Matters(D d, const float* least, const float* greatest) const {
+    if constexpr (Target::kKey != CellKey::place)
+      return hn::Le(hn::Load(d, least), hn::Load(d, greatest));
     auto matters = hn::MaskFromVec(hn::Zero(d));
     for (const ScalarWindow& window : target_.windows())
       matters = hn::Or(matters, hn::And(hn::Lt(hn::Load(d, least), hn::Set(d, window.below)),
@@ -245,7 +252,19 @@ class CellSearch {
     return matters;
   }
 
-  // Puts the children that matter on the stack, the nearest on top.
+  // Of boxes and ranges: see Target.
+  template <class D>
+  HWY_INLINE hn::Vec<D> Keys(D d, const float* low, const float* high, const float* least,
+                             const float* greatest) const {
+    if constexpr (Target::kKey == CellKey::place)
+      return forwards_ ? hn::Load(d, low) : hn::Neg(hn::Load(d, high));
+    else if (pass_ == Pass::special)
+      return hn::Set(d, -std::numeric_limits<float>::infinity());
+    else
+      return Target::kKey == CellKey::least ? hn::Load(d, least) : hn::Neg(hn::Load(d, greatest));
+  }
+
+  // Puts the children that matter on the stack, that with the least key on top.
   HWY_INLINE void Open(const Item& item) {
     const HWY_CAPPED(float, CellHierarchy::kWidth) d;
     const std::uint32_t number = hierarchy_.levels[item.level - 1] + item.index;
@@ -253,15 +272,17 @@ class CellSearch {
     std::uint32_t matters = 0, open = 0;
     HWY_ALIGN float keys[CellHierarchy::kWidth];
     for (std::size_t from = 0; from < CellHierarchy::kWidth; from += hn::Lanes(d)) {
-      const auto key =
-          forwards_ ? hn::Load(d, node.low[z_] + from) : hn::Neg(hn::Load(d, node.high[z_] + from));
+      const auto key = Keys(d, node.low[z_] + from, node.high[z_] + from, node.least + from,
+                            node.greatest + from);
       hn::Store(key, d, keys + from);
       matters |= BitsOf(d, Matters(d, node.least + from, node.greatest + from)) << from;
       open |= BitsOf(d, hn::And(hull_.Meets(d, node.low, node.high, from),
                                 hn::Lt(key, hn::Set(d, limit_))))
               << from;
     }
-    open &= matters | hierarchy_.special[number];
+    open &= pass_ == Pass::special  ? hierarchy_.special[number]
+            : pass_ == Pass::inside ? matters
+                                    : matters | hierarchy_.special[number];
     const std::size_t begin = size_;
     for (; open != 0; open &= open - 1) {
       const auto child = static_cast<std::uint32_t>(__builtin_ctz(open));
@@ -290,18 +311,20 @@ class CellSearch {
     const std::uint32_t first = number * static_cast<std::uint32_t>(kLeafCells);
     const std::uint32_t size =
         std::min(hierarchy_.cell_count - first, static_cast<std::uint32_t>(kLeafCells));
-    const unsigned all = (1u << size) - 1, special = hierarchy_.leaves[number].special;
+    const unsigned all = (1u << size) - 1;
+    const unsigned special = pass_ == Pass::inside ? 0 : hierarchy_.leaves[number].special;
     // Cells to go through; of the other special ones, only faces at the boundary.
     const unsigned thin = hierarchy_.leaves[number].thin;
-    const unsigned through = (matters ? thin | MayMatter(number) : thin) & all;
+    const bool look_inside = matters && pass_ != Pass::special;
+    const unsigned through = (look_inside ? thin | MayMatter(number) : thin) & all;
     const unsigned wanted = through | (special & all);
     if (wanted == 0) return;
     const ReadLeaf& leaf = leaves_.read(number, wanted);
     HWY_ALIGN float keys[kLeafCells];
     for (std::size_t from = 0; from < kLeafCells; from += hn::Lanes(d))
-      hn::Store(
-          forwards_ ? hn::Load(d, leaf.low[z_] + from) : hn::Neg(hn::Load(d, leaf.high[z_] + from)),
-          d, keys + from);
+      hn::Store(Keys(d, leaf.low[z_] + from, leaf.high[z_] + from, leaf.least + from,
+                     leaf.greatest + from),
+                d, keys + from);
     for (std::size_t group = 0; group * Lanes() < bundle_.size(); ++group) {
       const std::size_t first_ray = group * Lanes();
       const float* const limits = target_.limits() + first_ray;
@@ -316,9 +339,12 @@ class CellSearch {
         const auto near = hn::Lt(hn::Set(d, keys[place]), hn::Load(d, limits));
         const bool whole = (through >> place & 1) != 0, is_thin = (thin >> place & 1) != 0;
         const TetTest::Rays found =
-            tet_.Test(leaf.cells, place, first_ray, whole, is_thin, target_.windows());
+            tet_.Test(leaf.cells, place, first_ray, whole,
+                      is_thin || Target::kKey != CellKey::place, target_.windows());
         unsigned rays = BitsOf(d, hn::And(near, found.through));
-        unsigned boundary = BitsOf(d, hn::And(near, found.boundary)) & ~rays;
+        unsigned boundary = BitsOf(d, hn::And(near, found.boundary));
+        if (Target::kKey == CellKey::place) boundary &= ~rays;  // going through, it crosses that
+        if (pass_ == Pass::inside) boundary = 0;
         if ((rays | boundary) == 0) continue;
         const TetCell cell = CellOf(leaf, first + place, place);
         auto ray_of = [&](unsigned bits) {
@@ -334,6 +360,7 @@ class CellSearch {
 
   // A bit for each cell of a leaf whose values may matter.
   unsigned MayMatter(std::uint32_t leaf) const {
+    if constexpr (Target::kKey != CellKey::place) return 0xFFFF;
     const CellHierarchy::Node& node = hierarchy_.nodes[leaf / CellHierarchy::kWidth];
     const std::size_t child = leaf % CellHierarchy::kWidth;
     const CellHierarchy::Sixteenths sixteenths(node.least[child], node.greatest[child]);
@@ -369,6 +396,7 @@ class CellSearch {
   const bool forwards_;
   Target& target_;
   HullTest hulls_[RayBundle::kRays];  // of as many rays as a vector has lanes
+  Pass pass_ = Pass::all;
   float limit_ = 0;
   // Of each level at most all children but the one that is being opened.
   Item stack_[12 * CellHierarchy::kWidth];

@@ -29,6 +29,9 @@ struct SoughtIsovalue {
   bool opaque = false;
 };
 
+/// What cells are looked for in the order of: where they begin along the rays, or their values.
+enum class CellKey : std::uint8_t { place, least, greatest };
+
 /// Finds, for each ray of the bundle, the segments on which the points' scalar crosses one of the
 /// isovalues (a value equal to it counts as above), up to the first one that is opaque.
 ///
@@ -45,5 +48,13 @@ struct SoughtIsovalue {
 /// place for each ray. Passages closer than `connected`, in world units, count as one.
 void find_isosurfaces(LeafCache& leaves, std::span<const SoughtIsovalue> isovalues,
                       double connected, RayBundle& bundle, std::span<SearchedRay> found);
+
+/// The greatest scalar on each ray, or the least: of those on the faces of all cells that a walk
+/// goes through, bit for bit; -infinity, or infinity, where a ray has none. `found` says which rays
+/// are declined, for the reasons above.
+void find_greatest(LeafCache& leaves, RayBundle& bundle, std::span<SearchedRay> found,
+                   std::span<float> values);
+void find_least(LeafCache& leaves, RayBundle& bundle, std::span<SearchedRay> found,
+                std::span<float> values);
 
 }  // namespace plume

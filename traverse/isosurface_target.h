@@ -19,6 +19,8 @@ namespace plume {
 /// begins along the ray, z * sign.
 class IsosurfaceTarget {
  public:
+  static constexpr CellKey kKey = CellKey::place;
+
   IsosurfaceTarget(const WalkableTets& mesh, const CellHierarchy& hierarchy,
                    std::span<const SoughtIsovalue> isovalues, const RayBundle& bundle,
                    std::span<SearchedRay> found)

@@ -107,6 +107,22 @@ TEST(HierarchyPictures, AreTheWalkersInTangledMeshesAndFromInside) {
   expect_same(scene, inside, small(), "inside");
 }
 
+TEST(HierarchyPictures, OfTheGreatestAndTheLeastAreTheWalkers) {
+  for (const double jitter : {0.0, 0.2, 0.5, 3.0})
+    for (const char* name : {"box-tetrahedra", "ball-tetrahedra"}) {
+      const Scene scene(generate(name, {10, jitter, 3}));
+      for (const char* view : {"iso", "+x"})
+        for (const Mode mode : {Mode::maximum, Mode::minimum}) {
+          Camera camera = named_view(view, scene.bounds());
+          camera.parallel = jitter == 0;
+          RenderSettings settings = small();
+          settings.mode = mode;
+          const RenderStatistics statistics = expect_same(scene, camera, settings, name);
+          EXPECT_TRUE(jitter != 0.2 || statistics.rays_searched > statistics.rays / 2) << name;
+        }
+    }
+}
+
 TEST(HierarchyPictures, AnIsovalueChangesWithoutARebuild) {
   Scene scene(generate("box-tetrahedra", {12, 0.2, 3}));
   const Camera camera = named_view("iso", scene.bounds());

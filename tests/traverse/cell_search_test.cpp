@@ -158,20 +158,21 @@ void expect_all_as_walked(const Mesh& mesh, std::size_t rays, const std::string&
     expect_as_walked(traced, list, sought, tally, which);
     if (testing::Test::HasFatalFailure()) return;
   }
-  EXPECT_GT(tally.segments, 0u) << which;
+  // Where all rays are declined, nothing was found.
+  EXPECT_TRUE(tally.segments > 0 || most_declined == 1) << which;
   EXPECT_LE(tally.declined, most_declined * static_cast<double>(tally.rays)) << which;
 }
 
 TEST(CellSearch, FindsWhatAWalkFinds) {
-  expect_all_as_walked(generate("box-tetrahedra", {12, 0.0, 7}), 6000, "clean", 0.5);
-  expect_all_as_walked(generate("box-tetrahedra", {14, 0.2, 7}), 6000, "jittered", 0.5);
+  expect_all_as_walked(generate("box-tetrahedra", {12, 0.0, 7}), 3000, "clean", 0.5);
+  expect_all_as_walked(generate("box-tetrahedra", {14, 0.2, 7}), 3000, "jittered", 0.5);
   expect_all_as_walked(generate("ball-tetrahedra", {8, 0.1, 7}), 3000, "ball", 0.5);
 }
 
 TEST(CellSearch, IsRightOrDeclinesInTangledMeshes) {
   const auto mesh = generate("box-tetrahedra", {10, 3.0, 7});
-  expect_all_as_walked(mesh, 6000, "inverted", 1);
-  expect_all_as_walked(generate("box-tetrahedra", {10, 0.7, 7}), 6000, "some inverted", 1);
+  expect_all_as_walked(mesh, 3000, "inverted", 1);
+  expect_all_as_walked(generate("box-tetrahedra", {10, 0.7, 7}), 3000, "some inverted", 1);
 }
 
 TEST(CellSearch, IsRightOrDeclinesInFlatMeshes) {
@@ -180,7 +181,7 @@ TEST(CellSearch, IsRightOrDeclinesInFlatMeshes) {
   for (std::size_t i = 0; i < points.size(); ++i)
     points[i] = mesh.points.at<double>(i) * (i % 3 == 2 ? 1e-6 : 1);
   mesh.points = Array::own(std::move(points));
-  expect_all_as_walked(mesh, 6000, "flat", 1);
+  expect_all_as_walked(mesh, 3000, "flat", 1);
 }
 
 // A plateau at the isovalue is above it; a field of NaN here and there has no surface there.
@@ -208,7 +209,7 @@ TEST(CellSearch, TakesValuesThatHardlyDiffer) {
   const auto mesh = with_values(generate("box-tetrahedra", {12, 0.2, 7}), [](const auto& p) {
     return 1 + std::round(8 * static_cast<float>(p[0] + 0.3 * p[1])) * 0x1p-23f;
   });
-  expect_all_as_walked(mesh, 6000, "hardly", 0.5);
+  expect_all_as_walked(mesh, 3000, "hardly", 0.5);
 }
 
 TEST(CellSearch, DeclinesFewRaysOfAPicture) {
