@@ -9,6 +9,7 @@
 #include "plume/tests/bench/hierarchy_frames.h"
 #include "plume/tests/bench/peer_frames.h"
 #include "plume/tests/bench/thread_scaling.h"
+#include "plume/tests/bench/tolerance_frames.h"
 
 namespace {
 
@@ -18,9 +19,10 @@ constexpr const char* kHelp = R"(plume_frame_bench: whole frames, from the rays 
   --threads        two threads against one
   --hexahedra      the blunt fin as hexahedra against tetrahedra; orders 1, 2 and 3; beside the
                    thesis' frames
+                   all where none is asked for
+  --tolerance      what is asked for, what the planner chooses, and what that comes to, in all modes
   --hierarchy      an opaque isosurface through the hierarchy of cells against walking to it, of
-                   10 million tetrahedra
-                   all but the last where none is asked for
+                   10 million tetrahedra: only where it is asked for
   --rounds=N       how many frames each (5, with two threads 7); medians are reported
   --cells=N        of the hierarchy's box, along each side (118)
   --size=N         pixels along each side (512, with two threads 1024)
@@ -38,7 +40,7 @@ bool take(const std::string& argument, const std::string& name, int& value) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool peers = false, threads = false, hexahedra = false, hierarchy = false;
+  bool peers = false, threads = false, hexahedra = false, tolerance = false, hierarchy = false;
   int rounds = 0, size = 0, cells = 0;
   std::string pictures;
   for (int i = 1; i < argc; ++i) {
@@ -51,6 +53,8 @@ int main(int argc, char** argv) {
       hexahedra = true;
     else if (argument == "--hierarchy")
       hierarchy = true;
+    else if (argument == "--tolerance")
+      tolerance = true;
     else if (argument.rfind("--pictures=", 0) == 0)
       pictures = argument.substr(11);
     else if (!take(argument, "--rounds=", rounds) && !take(argument, "--size=", size) &&
@@ -59,7 +63,8 @@ int main(int argc, char** argv) {
       return argument == "--help" ? 0 : 2;
     }
   }
-  if (!peers && !threads && !hexahedra && !hierarchy) peers = threads = hexahedra = true;
+  if (!peers && !threads && !hexahedra && !tolerance && !hierarchy)
+    peers = threads = hexahedra = tolerance = true;
   plume::bench::PeerFrameOptions peer_options;
   plume::bench::HexahedraFrameOptions hexahedra_options;
   plume::bench::ThreadScalingOptions thread_options;
@@ -80,6 +85,8 @@ int main(int argc, char** argv) {
       plume::bench::compare_with_thesis_frames(hexahedra_options);
     }
     if (hierarchy) good = plume::bench::compare_isosurfaces(hierarchy_options) && good;
+    if (tolerance)
+      good = plume::bench::check_tolerances(size > 0 ? size : 256, rounds > 0 ? rounds : 3) && good;
     return good ? 0 : 1;
   } catch (const plume::Error& error) {
     std::fprintf(stderr, "plume_frame_bench: %s\n", error.what());
