@@ -78,6 +78,10 @@ class ClassifiedPixel {
     });
   }
 
+  /// Segments are left out before the next one that are empty and on which no isosurface is
+  /// crossed. Requires that there are no intervals.
+  void pass_over() { end_ = -std::numeric_limits<double>::infinity(); }
+
   Compositor compositor;
   /// The first isosurface or interval that is not transparent.
   SurfaceHit first;

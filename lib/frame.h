@@ -32,7 +32,7 @@ struct PixelPlace {
 /// What rays came to, for the statistics.
 struct Counts {
   std::uint64_t hit = 0, entries = 0, cells = 0, lost = 0, surfaces = 0, visits = 0;
-  std::uint64_t in_packets = 0;
+  std::uint64_t in_packets = 0, searched = 0;
 
   void add(const TraceResult& trace) {
     hit += trace.entries > 0 ? 1 : 0;

@@ -63,9 +63,6 @@ std::array<double, 8> trilinear_weights(const Vector& parameters) {
 
 GradientField::GradientField(const WalkableTets& walkable, std::vector<float> of_points)
     : values_(reordered(walkable, of_points)) {
-  for (std::size_t face = 0; face < walkable.boundary.size(); ++face)
-    boundary_.emplace_back(walkable.boundary[face].cell, static_cast<std::uint32_t>(face));
-  std::sort(boundary_.begin(), boundary_.end());
 }
 
 GradientField::GradientField(const WalkableCells& walkable, std::vector<float> of_points)
@@ -94,32 +91,7 @@ void GradientField::put(const WalkableRectilinear&, std::vector<float> of_points
 }
 
 std::size_t GradientField::bytes() const {
-  return values_.size() * sizeof(float) + boundary_.size() * sizeof(boundary_[0]);
-}
-
-// A tetrahedron does not store its points. At the boundary a face has them all; elsewhere each
-// neighbour's link back names the one that the common face leaves out.
-std::array<std::uint32_t, 4> GradientField::points_of(const WalkableTets& walkable,
-                                                      std::uint32_t cell) const {
-  const auto at = std::lower_bound(boundary_.begin(), boundary_.end(), std::pair{cell, 0u});
-  if (at != boundary_.end() && at->first == cell) {
-    const WalkableTets::Boundary& face = walkable.boundary[at->second];
-    return {face.loop[0], face.loop[1], face.loop[2], face.apex};
-  }
-  std::array<std::uint32_t, 4> points{};
-  for (std::size_t rank = 0; rank < 4; ++rank) {
-    const std::uint32_t neighbor = walkable.cells[cell][rank].cell;
-    // Two cells may share several faces: then each of the links back is taken once.
-    const auto& links = walkable.cells[cell];
-    auto same = [&](const WalkableTets::Link& link) { return link.cell == neighbor; };
-    auto wanted = std::count_if(links.begin(), links.begin() + static_cast<long>(rank), same);
-    for (const WalkableTets::Link& back : walkable.cells[neighbor]) {
-      if (back.cell != cell) continue;
-      if (wanted == 0) points[rank] = back.apex;
-      --wanted;
-    }
-  }
-  return points;
+  return values_.size() * sizeof(float);
 }
 
 Vector GradientField::weighted(std::span<const std::uint32_t> points,
@@ -167,7 +139,7 @@ Vector GradientField::in_tetrahedron(const Walkable& walkable,
 
 Vector GradientField::at(const WalkableTets& walkable, std::uint32_t cell,
                          const Vector& place) const {
-  const auto points = points_of(walkable, cell);
+  const auto points = walkable.points_of(cell);
   const Vector local = local_place(walkable.frame, place);
   return in_tetrahedron(walkable, points, local);
 }

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "plume/mesh/walkable_cells.h"
@@ -17,8 +16,8 @@ namespace plume {
 /// Gradients at a mesh's points (mesh/gradients.h), interpolated inside of its cells as the scalar
 /// is at order 3 (traverse/inner_scalar.h): linearly in tetrahedra, by the isoparametric map in
 /// hexahedra, wedges and pyramids. So they are continuous across faces, which the gradient of the
-/// interpolated scalar is not, and surfaces look smooth. Exact for linear fields. 12 bytes a point,
-/// and 8 a boundary face of tetrahedra.
+/// interpolated scalar is not, and surfaces look smooth. Exact for linear fields. 12 bytes a
+/// point.
 ///
 /// Where the interpolation has no answer (cells without volume, gradients that are NaN), the mean
 /// of the cell's points, weighted by 1 / distance^2, of those that have a gradient; in a
@@ -48,7 +47,6 @@ class GradientField {
   std::size_t bytes() const;
 
  private:
-  std::array<std::uint32_t, 4> points_of(const WalkableTets& walkable, std::uint32_t cell) const;
   Vector value(std::uint32_t point) const {
     return {values_[3 * std::size_t{point}], values_[3 * std::size_t{point} + 1],
             values_[3 * std::size_t{point} + 2]};
@@ -62,8 +60,6 @@ class GradientField {
                      const Vector& local) const;
 
   std::vector<float> values_;  // 3 a point of the walkable mesh
-  // Tetrahedra: cells at the boundary, ascending, with one of their boundary faces.
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> boundary_;
 };
 
 }  // namespace plume

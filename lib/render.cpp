@@ -67,6 +67,7 @@ bool make_tiles(const Frame& frame, TileMaker& maker, const Progress& progress,
     statistics.cells_visited += part.cells;
     statistics.lost_rays += part.lost;
     statistics.rays_in_packets += part.in_packets;
+    statistics.rays_searched += part.searched;
     statistics.surfaces += part.surfaces;
     statistics.visits += part.visits;
   }
@@ -94,7 +95,16 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
     effective.integrator.kind = IntegratorKind::closed_form;
   plan = describe_plan(scene, effective);
   plan.insert(plan.begin(), reasons.begin(), reasons.end());
-  if (has_packets(scene))
+  const auto why_walked = no_search(scene, effective);
+  if (!why_walked)
+    plan.push_back(fmt::format(
+        "rays: through a hierarchy of cells ({}), as only {}",
+        scene.body().hierarchy.made() ? "made before" : "made for this picture",
+        is_classified(scene, settings) ? "isosurfaces are to be seen"
+                                       : "cells with a greater or lesser scalar need a look"));
+  else if (is_classified(scene, settings) && !scene.classification().isosurfaces.empty())
+    plan.push_back(fmt::format("rays: walked, not through a hierarchy of cells: {}", *why_walked));
+  else if (has_packets(scene))
     plan.push_back(walked_in_packets(frame)
                        ? fmt::format("rays: in packets, {}", packet_instruction_set())
                        : "rays: one by one (packets serve the volume mode by the closed form, "
@@ -115,10 +125,13 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   const Integrator& integrator = *kept;
   if (const auto table = describe_table(integrator)) plan.push_back(*table);
   const PieceTable pieces(scene.transfer_function());
-  const auto maker = is_classified(scene, settings)  ? classified_tiles(frame, integrator)
-                     : settings.mode != Mode::volume ? mode_tiles(frame)
-                     : walked_in_packets(frame)      ? packet_tiles(frame, integrator, pieces)
-                                                     : volume_tiles(frame, integrator);
+  const bool had_hierarchy = scene.body().hierarchy.made();
+  const auto maker = !why_walked                      ? searched_tiles(frame, integrator)
+                     : is_classified(scene, settings) ? classified_tiles(frame, integrator)
+                     : settings.mode != Mode::volume  ? mode_tiles(frame)
+                     : walked_in_packets(frame)       ? packet_tiles(frame, integrator, pieces)
+                                                      : volume_tiles(frame, integrator);
+  result.statistics.hierarchy_made = !had_hierarchy && scene.body().hierarchy.made();
   result.cancelled = make_tiles(frame, *maker, progress, result.statistics);
   frame.put_surfaces();
   frame.shade_raw(result.statistics);

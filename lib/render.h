@@ -102,8 +102,9 @@ struct RenderSettings {
   double early_termination = 1e-4;
   /// Threads to use, at most those there are; 0 for all. The picture is the same for any number.
   int threads = 0;
-  /// Walk ray by ray in plain scalar code where packets of rays would do: for comparison. The two
-  /// take the same way through the mesh, and their pictures differ by less than 1e-5.
+  /// Walk ray by ray in plain scalar code where packets of rays or a hierarchy of cells would do:
+  /// for comparison. Packets take the same way through the mesh, and pictures differ by less than
+  /// 1e-5; those through the hierarchy not at all.
   bool scalar_twin = false;
   /// Modes in shades of gray: the numbers that run from one end of the shades to the other, low
   /// below high; numbers beyond are as bright as the nearer end. By default what the mode says, of
@@ -127,6 +128,11 @@ struct RenderStatistics {
   std::uint64_t cells_visited = 0;    ///< cells walked through by all rays
   std::uint64_t lost_rays = 0;        ///< rays that found no way out: 0
   std::uint64_t rays_in_packets = 0;  ///< rays walked by packets; the others one by one
+  /// Rays that found isosurfaces through the hierarchy of cells, without a walk; their
+  /// `cells_visited` are those looked at.
+  std::uint64_t rays_searched = 0;
+  /// Whether that hierarchy was made for this picture: once for each scene that needs it.
+  bool hierarchy_made = false;
   std::uint64_t surfaces = 0;         ///< isosurfaces crossed, before rays ended
   std::uint64_t visits = 0;           ///< to interval volumes, before rays ended
   double seconds_planning = 0;        ///< spent on finding a plan for a tolerance

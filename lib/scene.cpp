@@ -186,6 +186,7 @@ void Scene::set_field(const Mesh& mesh, const FieldRequest& request) {
   body.sample = sample_for_map(read.field.values);
   body.default_map.reset();
   body.unit_distance.reset();
+  body.hierarchy.reset();
   take_words(body, read);
   std::visit(
       [&](const auto& walkable) {

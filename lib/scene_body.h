@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "plume/lib/gradient_field.h"
+#include "plume/lib/lazy_hierarchy.h"
 #include "plume/lib/scene.h"
 #include "plume/preint/integrator_cache.h"
 #include "plume/traverse/opaque_triangles.h"
@@ -58,6 +59,8 @@ struct Scene::Body {
   std::optional<GradientField> gradients;
   mutable IntegratorCache integrators;  // a frame without a new transfer function builds no table
   std::vector<SceneSurface> surfaces;
+  /// Of tetrahedra, where a picture needs it.
+  LazyHierarchy hierarchy;
 };
 
 }  // namespace plume

@@ -63,12 +63,69 @@ void link(std::vector<WalkableTets::Cell>& cells) {
   });
 }
 
+std::vector<std::uint64_t> bits_of(const std::vector<std::uint8_t>& flags) {
+  std::vector<std::uint64_t> bits((flags.size() + 63) / 64, 0);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, bits.size(), 1024), [&](const auto& range) {
+    for (std::size_t word = range.begin(); word != range.end(); ++word) {
+      const std::size_t end = std::min(flags.size(), 64 * word + 64);
+      for (std::size_t c = 64 * word; c < end; ++c) bits[word] |= std::uint64_t{flags[c]} << c % 64;
+    }
+  });
+  return bits;
+}
+
 }  // namespace
+
+// Elsewhere than at the boundary, each neighbour's link back names the point that the common face
+// leaves out. Which of its links that is cannot be guessed, so that selecting beats branching.
+std::array<std::uint32_t, 4> WalkableTets::points_of(std::uint32_t cell) const {
+  const Cell& own = cells[cell];
+  const std::uint32_t n0 = own[0].cell, n1 = own[1].cell, n2 = own[2].cell, n3 = own[3].cell;
+  const bool boundary_or_twice = n0 == kNone || n1 == kNone || n2 == kNone || n3 == kNone ||
+                                 n0 == n1 || n0 == n2 || n0 == n3 || n1 == n2 || n1 == n3 ||
+                                 n2 == n3;
+  if (boundary_or_twice) return points_of_rare(cell);
+  auto back = [&](std::uint32_t neighbor) {
+    const Cell& links = cells[neighbor];
+    const std::uint32_t low = links[0].cell == cell ? links[0].apex : links[1].apex;
+    const std::uint32_t high = links[2].cell == cell ? links[2].apex : links[3].apex;
+    return links[0].cell == cell || links[1].cell == cell ? low : high;
+  };
+  return {back(n0), back(n1), back(n2), back(n3)};
+}
+
+// At the boundary a face has all points. Two cells that share several faces share all their points,
+// and the ranks of these are the same in both: the links back come in the order of ours.
+std::array<std::uint32_t, 4> WalkableTets::points_of_rare(std::uint32_t cell) const {
+  const Cell& own = cells[cell];
+  std::array<std::uint32_t, 4> ids{};
+  for (std::size_t rank = 0; rank < 4; ++rank) {
+    const std::uint32_t neighbor = own[rank].cell;
+    if (neighbor == kNone) {
+      const auto face = std::lower_bound(
+          boundary.begin(), boundary.end(), cell,
+          [](const Boundary& candidate, std::uint32_t wanted) { return candidate.cell < wanted; });
+      ids = {face->loop[0], face->loop[1], face->loop[2], face->apex};
+      std::sort(ids.begin(), ids.end());
+      return ids;
+    }
+    const Cell& links = cells[neighbor];
+    std::size_t back = 0;
+    while (links[back].cell != cell) ++back;
+    for (std::size_t earlier = 0; earlier < rank; ++earlier)
+      if (own[earlier].cell == neighbor)
+        while (links[++back].cell != cell) {
+        }
+    ids[rank] = links[back].apex;
+  }
+  return ids;
+}
 
 std::size_t WalkableTets::bytes() const {
   return points.size() * sizeof(WalkablePoint) + cells.size() * sizeof(Cell) +
          cell_values.size() * sizeof(float) + original_cells.size() * sizeof(std::uint32_t) +
-         point_numbers.size() * sizeof(std::uint32_t) + boundary.size() * sizeof(Boundary);
+         point_numbers.size() * sizeof(std::uint32_t) + boundary.size() * sizeof(Boundary) +
+         odd_bits.size() * sizeof(std::uint64_t);
 }
 
 WalkableTets make_walkable_tets(const Mesh& mesh, const ScalarField& scalar, const Bounds& bounds,
@@ -80,6 +137,7 @@ WalkableTets make_walkable_tets(const Mesh& mesh, const ScalarField& scalar, con
   tets.findings = std::move(adjacency.findings);
   tets.boundary = boundary_of(adjacency);
   tets.cells = std::move(adjacency.cells);
+  tets.odd_bits = bits_of(adjacency.odd);
   link(tets.cells);
   if (scalar.association == Association::cell) {
     tets.cell_values.reserve(adjacency.original.size());

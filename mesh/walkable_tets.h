@@ -14,7 +14,7 @@
 namespace plume {
 
 /// Immutable but for its scalars (put_scalars.h), compact, ordered along a Hilbert curve; safe to
-/// read from any number of threads. 32 bytes a cell, 16 a point.
+/// read from any number of threads. 32 bytes and a bit a cell, 16 a point.
 ///
 /// A cell does not store its points. Who comes in through a face knows three of them, and the link
 /// that was followed brought the fourth, the apex. So the next point and the next cell are fetched
@@ -43,14 +43,25 @@ struct WalkableTets {
   std::vector<std::uint32_t> original_cells;
   /// Number here of each of the user's points, kNone where no cell uses it; empty unless asked for.
   std::vector<std::uint32_t> point_numbers;
+  /// In the order of their cells.
   std::vector<Boundary> boundary;
+  /// One bit a cell: whether its ascending points have the opposite of VTK's positive orientation.
+  /// Walkers need no orientation; who looks at a cell without having walked to it does.
+  std::vector<std::uint64_t> odd_bits;
   std::vector<Finding> findings;
 
   std::size_t cell_count() const { return cells.size(); }
+  bool is_odd(std::uint32_t cell) const { return (odd_bits[cell / 64] >> cell % 64 & 1) != 0; }
+  /// The points of a cell in ascending order, so that link r leaves out the r-th. From the links
+  /// back of its neighbours, or from the list of boundary faces: some ten reads.
+  std::array<std::uint32_t, 4> points_of(std::uint32_t cell) const;
   std::uint32_t original_cell(std::uint32_t cell) const {
     return original_cells.empty() ? cell : original_cells[cell];
   }
   std::size_t bytes() const;
+
+ private:
+  std::array<std::uint32_t, 4> points_of_rare(std::uint32_t cell) const;
 };
 
 /// Builds the walkable form: orders cells and points, finds neighbours, gives all cells that hang

@@ -76,6 +76,9 @@ struct Straddle {
 /// in the corner that has its side of y = 0 for itself. The same as barycentric coordinates from
 /// three Plücker products, of which two may contradict the bits, and each other, where the triangle
 /// is seen edge-on; the place would then lie beside the ray.
+///
+/// The same bits whatever the order of a, b and c: both cells at a face, and whoever comes to it by
+/// another way, measure the same.
 inline Crossing measure_triangle(const ShearedPoint& a, const ShearedPoint& b,
                                  const ShearedPoint& c) {
   const bool ab = a.up() != b.up(), ac = a.up() != c.up();
@@ -85,14 +88,14 @@ inline Crossing measure_triangle(const ShearedPoint& a, const ShearedPoint& b,
   const double lone_x = lone.x, lone_y = lone.y;
   // Where the edge to p crosses y = 0, how far from the ray, times p_height; the same for q.
   const double p_height = p.y - lone_y, q_height = q.y - lone_y;
-  const double p_distance = std::abs(lone_x * p.y - p.x * lone_y);
-  // If both edges pass through the ray, one of them will do.
+  // If both edges pass through the ray, the place is half way between them.
   constexpr double kNothing = 1e-200;
+  const double p_distance = std::max(std::abs(lone_x * p.y - p.x * lone_y), kNothing);
   const double q_distance = std::max(std::abs(lone_x * q.y - q.x * lone_y), kNothing);
   const double share = -lone_y / (p_distance * q_height + q_distance * p_height);
   const double of_p = q_distance * share, of_q = p_distance * share;
   auto blend = [&](double at_lone, double at_p, double at_q) {
-    return at_lone + of_p * (at_p - at_lone) + of_q * (at_q - at_lone);
+    return at_lone + (of_p * (at_p - at_lone) + of_q * (at_q - at_lone));
   };
   return {blend(lone.z, p.z, q.z), static_cast<float>(blend(lone.scalar, p.scalar, q.scalar))};
 }

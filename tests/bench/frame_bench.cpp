@@ -6,6 +6,7 @@
 
 #include "plume/mesh/error.h"
 #include "plume/tests/bench/hexahedra_frames.h"
+#include "plume/tests/bench/hierarchy_frames.h"
 #include "plume/tests/bench/peer_frames.h"
 #include "plume/tests/bench/thread_scaling.h"
 #include "plume/tests/bench/tolerance_frames.h"
@@ -20,7 +21,10 @@ constexpr const char* kHelp = R"(plume_frame_bench: whole frames, from the rays 
                    thesis' frames
                    all where none is asked for
   --tolerance      what is asked for, what the planner chooses, and what that comes to, in all modes
+  --hierarchy      an opaque isosurface through the hierarchy of cells against walking to it, of
+                   10 million tetrahedra: only where it is asked for
   --rounds=N       how many frames each (5, with two threads 7); medians are reported
+  --cells=N        of the hierarchy's box, along each side (118)
   --size=N         pixels along each side (512, with two threads 1024)
   --pictures=DIR   writes the pictures that are compared with VTK's, as PNG files
 The blunt fin is read from the directory PLUME_DATASETS, by default ../shared/datasets.
@@ -36,8 +40,8 @@ bool take(const std::string& argument, const std::string& name, int& value) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool peers = false, threads = false, hexahedra = false, tolerance = false;
-  int rounds = 0, size = 0;
+  bool peers = false, threads = false, hexahedra = false, tolerance = false, hierarchy = false;
+  int rounds = 0, size = 0, cells = 0;
   std::string pictures;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
@@ -47,21 +51,28 @@ int main(int argc, char** argv) {
       threads = true;
     else if (argument == "--hexahedra")
       hexahedra = true;
+    else if (argument == "--hierarchy")
+      hierarchy = true;
     else if (argument == "--tolerance")
       tolerance = true;
     else if (argument.rfind("--pictures=", 0) == 0)
       pictures = argument.substr(11);
-    else if (!take(argument, "--rounds=", rounds) && !take(argument, "--size=", size)) {
+    else if (!take(argument, "--rounds=", rounds) && !take(argument, "--size=", size) &&
+             !take(argument, "--cells=", cells)) {
       std::fputs(kHelp, argument == "--help" ? stdout : stderr);
       return argument == "--help" ? 0 : 2;
     }
   }
-  if (!peers && !threads && !hexahedra && !tolerance)
+  if (!peers && !threads && !hexahedra && !tolerance && !hierarchy)
     peers = threads = hexahedra = tolerance = true;
   plume::bench::PeerFrameOptions peer_options;
   plume::bench::HexahedraFrameOptions hexahedra_options;
   plume::bench::ThreadScalingOptions thread_options;
+  plume::bench::HierarchyFrameOptions hierarchy_options;
   peer_options.pictures = pictures;
+  if (rounds > 0) hierarchy_options.rounds = rounds;
+  if (size > 0) hierarchy_options.size = size;
+  if (cells > 0) hierarchy_options.cells = cells;
   if (rounds > 0) peer_options.rounds = thread_options.rounds = hexahedra_options.rounds = rounds;
   if (size > 0) peer_options.size = thread_options.size = hexahedra_options.size = size;
   try {
@@ -73,6 +84,7 @@ int main(int argc, char** argv) {
       good = plume::bench::compare_orders(hexahedra_options) && good;
       plume::bench::compare_with_thesis_frames(hexahedra_options);
     }
+    if (hierarchy) good = plume::bench::compare_isosurfaces(hierarchy_options) && good;
     if (tolerance)
       good = plume::bench::check_tolerances(size > 0 ? size : 256, rounds > 0 ? rounds : 3) && good;
     return good ? 0 : 1;

@@ -1,0 +1,146 @@
+/// What bundles of rays do with tetrahedra that may hold an isosurface.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "plume/traverse/cell_search.h"
+#include "plume/traverse/tet_passage.h"
+
+namespace plume {
+
+/// A target says which cells matter (windows(), and for each ray limits(): a cell whose key is not
+/// below that does not), and takes those that the rays go through. Keys are here where a cell
+/// begins along the ray, z * sign.
+class IsosurfaceTarget {
+ public:
+  static constexpr CellKey kKey = CellKey::place;
+
+  IsosurfaceTarget(const WalkableTets& mesh, const CellHierarchy& hierarchy,
+                   std::span<const SoughtIsovalue> isovalues, const RayBundle& bundle,
+                   std::span<SearchedRay> found)
+      : mesh_(mesh), hierarchy_(hierarchy), isovalues_(isovalues), bundle_(bundle), found_(found) {
+    for (const SoughtIsovalue& sought : isovalues) windows_.push_back({sought.value, sought.value});
+    limits_.fill(-kInfinity);
+    std::fill_n(limits_.begin(), bundle.size(), kInfinity);
+    lasts_.fill(std::numeric_limits<double>::infinity());
+    for (std::size_t ray = 0; ray < bundle.size(); ++ray) found[ray].clear();
+  }
+
+  std::span<const ScalarWindow> windows() const { return windows_; }
+  const float* limits() const { return limits_.data(); }
+  /// The greatest of them, or more.
+  float limit() {
+    if (limits_changed_) limit_ = *std::max_element(limits_.begin(), limits_.end());
+    limits_changed_ = false;
+    return limit_;
+  }
+
+  /// The ray goes through the cell.
+  void go_through(std::size_t index, const TetCell& cell) {
+    const ShearedFrame& frame = bundle_.frame(index);
+    SearchedRay& ray = found_[index];
+    const TetPassage passage(cell, frame);
+    if (passage.ways() == TetPassage::Ways::none) return;
+    ray.count();
+    if (passage.ways() == TetPassage::Ways::two) return decline(index);
+    const Crossing in = passage.in(), out = passage.out();
+    const double t_in = frame.t(in.z), t_out = frame.t(out.z);
+    if (!(t_in <= t_out)) return decline(index);
+    const WalkableTets::Cell& links = mesh_.cells[cell.cell];
+    const std::uint32_t behind = links[passage.in_face()].cell;
+    if (behind == kNone) ray.cross_boundary(t_in, in.scalar, true);
+    if (links[passage.out_face()].cell == kNone) ray.cross_boundary(t_out, out.scalar, false);
+    const Between between = crossed(in.scalar, out.scalar);
+    if (between.any) {
+      if (!goes_forward(passage, in.z, behind)) return decline(index);
+      ray.add({t_in, t_out, in.scalar, out.scalar, cell.cell});
+      if (between.opaque && t_out < lasts_[index]) {
+        lasts_[index] = t_out;
+        // What begins at the same place still matters.
+        set_limit(index, std::nextafter(static_cast<float>(out.z * frame.sign()), kInfinity));
+      }
+    }
+    if (ray.declined()) set_limit(index, -kInfinity);
+  }
+
+  /// The ray goes into or out of a cell that is not thin, and does not matter, at the boundary.
+  void cross_boundary(std::size_t index, const TetCell& cell) {
+    const ShearedFrame& frame = bundle_.frame(index);
+    const TetPassage passage(cell, frame);
+    if (passage.ways() == TetPassage::Ways::none) return;
+    if (passage.ways() == TetPassage::Ways::two) return decline(index);
+    SearchedRay& ray = found_[index];
+    const WalkableTets::Cell& links = mesh_.cells[cell.cell];
+    auto cross = [&](const Crossing& place, bool in) {
+      ray.cross_boundary(frame.t(place.z), place.scalar, in);
+    };
+    if (links[passage.in_face()].cell == kNone) cross(passage.in(), true);
+    if (links[passage.out_face()].cell == kNone) cross(passage.out(), false);
+    if (ray.declined()) set_limit(index, -kInfinity);
+  }
+
+  void finish(const SearchedRay::Gaps& gaps) {
+    const auto differ = [this](float a, float b) { return crossed(a, b).any; };
+    for (std::size_t index = 0; index < bundle_.size(); ++index)
+      found_[index].finish(bundle_.ray(index), lasts_[index], gaps, differ);
+  }
+
+  /// In the mesh's local frame: closer than this two places may be out of order by rounding.
+  static constexpr double kRounding = 0x1p-20;
+
+ private:
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  // So far from the edges of the face by which it comes in, a ray has come through a good part of
+  // the cell before, if that is no special one.
+  static constexpr float kClearOfEdges = 0x1p-14f;
+
+  struct Between {
+    bool any = false, opaque = false;
+  };
+  Between crossed(float a, float b) const {
+    if (!std::isfinite(a) || !std::isfinite(b)) return {};
+    const float low = std::min(a, b), high = std::max(a, b);
+    Between between;
+    for (const SoughtIsovalue& sought : isovalues_) {
+      if (!(low < sought.value && sought.value <= high)) continue;
+      between.any = true;
+      between.opaque = between.opaque || sought.opaque;
+    }
+    return between;
+  }
+
+  bool goes_forward(const TetPassage& passage, double z_in, std::uint32_t behind) const {
+    return (behind != kNone && !hierarchy_.near_special(behind) &&
+            passage.enters_clear_of_edges(kClearOfEdges)) ||
+           passage.comes_from_before(mesh_, z_in, kRounding);
+  }
+
+  void decline(std::size_t index) {
+    found_[index].decline();
+    set_limit(index, -kInfinity);
+  }
+
+  void set_limit(std::size_t index, float limit) {
+    limits_changed_ = limits_changed_ || limits_[index] == limit_;
+    limits_[index] = limit;
+  }
+
+  const WalkableTets& mesh_;
+  const CellHierarchy& hierarchy_;
+  std::span<const SoughtIsovalue> isovalues_;
+  const RayBundle& bundle_;
+  std::span<SearchedRay> found_;
+  std::vector<ScalarWindow> windows_;
+  alignas(64) std::array<float, RayBundle::kRays> limits_;
+  bool limits_changed_ = false;
+  float limit_ = kInfinity;
+  std::array<double, RayBundle::kRays> lasts_;
+};
+
+}  // namespace plume
