@@ -81,12 +81,13 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   RenderResult result;
   std::vector<std::string>& plan = result.statistics.plan;
   plan = describe_plan(scene, settings);
+  const std::optional<PacketPieces> pieces = pieces_for_packets(frame);
   if (has_packets(scene))
-    plan.push_back(walked_in_packets(frame)
-                       ? fmt::format("rays: in packets, {}", packet_instruction_set())
-                       : "rays: one by one (packets serve the volume mode by the closed form, "
-                         "at order 1, without intervals, isosurfaces, clip planes and further "
-                         "channels)");
+    plan.push_back(
+        pieces ? fmt::format("rays: in packets, {}", packet_instruction_set())
+               : "rays: one by one (packets serve the volume mode by the closed form, "
+                 "at order 1, without tables or the linear form of intervals, clip planes and "
+                 "further channels)");
   if (settings.mode == Mode::volume) {
     if (frame.channels().whole_rays()) effective.early_termination = 0;
     plan.push_back(frame.channels().whole_rays()
@@ -99,11 +100,13 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   if (settings.mode != Mode::volume || !scene.classification().volume)
     effective.integrator.kind = IntegratorKind::closed_form;
   const Integrator integrator = make_integrator(scene.transfer_function(), effective.integrator);
-  const PieceTable pieces(scene.transfer_function());
-  const auto maker = is_classified(scene, settings)  ? classified_tiles(frame, integrator)
-                     : settings.mode != Mode::volume ? mode_tiles(frame)
-                     : walked_in_packets(frame)      ? packet_tiles(frame, integrator, pieces)
-                                                     : volume_tiles(frame, integrator);
+  const bool by_table =
+      is_classified(scene, settings) && settings.interval_way == IntervalWay::table;
+  const auto maker = by_table                         ? table_tiles(frame)
+                     : pieces                         ? packet_tiles(frame, integrator, *pieces)
+                     : is_classified(scene, settings) ? classified_tiles(frame, integrator)
+                     : settings.mode != Mode::volume  ? mode_tiles(frame)
+                                                      : volume_tiles(frame, integrator);
   result.cancelled = make_tiles(frame, *maker, progress, result.statistics);
   result.statistics.values = frame.shade_raw();
   result.statistics.rays = frame.pixel_count();

@@ -15,6 +15,7 @@
 #include "plume/lib/shading.h"
 #include "plume/preint/integrator.h"
 #include "plume/preint/interval_optics.h"
+#include "plume/preint/interval_table.h"
 
 namespace plume {
 
@@ -53,6 +54,10 @@ struct RenderSettings {
   IntegratorSettings integrator;
   /// Of interval volumes; `linear` is there to compare.
   IntervalForm interval_form = IntervalForm::exponential;
+  /// Where rays are cut at the ends of intervals and at isovalues; `table` is there to compare, in
+  /// the mode volume, without light and further channels, always of the exponential form.
+  IntervalWay interval_way = IntervalWay::split;
+  IntervalTableSettings interval_table;
   /// Light on isosurfaces and, where it says so, intervals; none by default. Needs a scene that
   /// keeps gradients (SceneOptions::keep_gradients).
   std::optional<Lighting> lighting;

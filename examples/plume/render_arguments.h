@@ -17,6 +17,7 @@ struct RenderArguments {
   std::string integrator = "closed-form", order = "1", cell_data = "constant", background = "white",
               stats;
   std::string interval_form = "exponential";
+  std::string interval_way = "split";
   std::vector<std::string> channels, isosurfaces, intervals, lights, clip_planes;
   std::string material, clip_box;
   double azimuth = 0, elevation = 0, zoom = 1, opacity_scale = 1, view_angle = 0;
@@ -34,6 +35,8 @@ inline const std::vector<std::pair<std::string, CellData>> kCellData{
     {"constant", CellData::constant}, {"averaged", CellData::averaged}};
 inline const std::vector<std::pair<std::string, IntervalForm>> kIntervalForms{
     {"exponential", IntervalForm::exponential}, {"linear", IntervalForm::linear}};
+inline const std::vector<std::pair<std::string, IntervalWay>> kIntervalWays{
+    {"split", IntervalWay::split}, {"table", IntervalWay::table}};
 inline const std::vector<std::pair<std::string, ScalarOrder>> kOrders{
     {"1", ScalarOrder::linear}, {"2", ScalarOrder::quadratic}, {"3", ScalarOrder::cubic}};
 

@@ -90,6 +90,7 @@ void run(const RenderArguments& args) {
   settings.integrator.kind = chosen(kIntegrators, args.integrator);
   settings.integrator.samples = args.samples;
   settings.interval_form = chosen(kIntervalForms, args.interval_form);
+  settings.interval_way = chosen(kIntervalWays, args.interval_way);
   settings.order = chosen(kOrders, args.order);
   settings.early_termination = args.early_termination;
   settings.threads = args.threads;

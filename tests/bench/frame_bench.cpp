@@ -6,6 +6,7 @@
 
 #include "plume/mesh/error.h"
 #include "plume/tests/bench/hexahedra_frames.h"
+#include "plume/tests/bench/interval_frames.h"
 #include "plume/tests/bench/peer_frames.h"
 #include "plume/tests/bench/thread_scaling.h"
 
@@ -17,6 +18,8 @@ constexpr const char* kHelp = R"(plume_frame_bench: whole frames, from the rays 
   --threads        two threads against one
   --hexahedra      the blunt fin as hexahedra against tetrahedra; orders 1, 2 and 3; beside the
                    thesis' frames
+  --intervals      two intervals and an isosurface added to a volume against the volume alone;
+                   split in data space against the paper's tables
                    all where none is asked for
   --rounds=N       how many frames each (5, with two threads 7); medians are reported
   --size=N         pixels along each side (512, with two threads 1024)
@@ -34,7 +37,7 @@ bool take(const std::string& argument, const std::string& name, int& value) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool peers = false, threads = false, hexahedra = false;
+  bool peers = false, threads = false, hexahedra = false, intervals = false;
   int rounds = 0, size = 0;
   std::string pictures;
   for (int i = 1; i < argc; ++i) {
@@ -45,6 +48,8 @@ int main(int argc, char** argv) {
       threads = true;
     else if (argument == "--hexahedra")
       hexahedra = true;
+    else if (argument == "--intervals")
+      intervals = true;
     else if (argument.rfind("--pictures=", 0) == 0)
       pictures = argument.substr(11);
     else if (!take(argument, "--rounds=", rounds) && !take(argument, "--size=", size)) {
@@ -52,13 +57,18 @@ int main(int argc, char** argv) {
       return argument == "--help" ? 0 : 2;
     }
   }
-  if (!peers && !threads && !hexahedra) peers = threads = hexahedra = true;
+  if (!peers && !threads && !hexahedra && !intervals)
+    peers = threads = hexahedra = intervals = true;
   plume::bench::PeerFrameOptions peer_options;
   plume::bench::HexahedraFrameOptions hexahedra_options;
+  plume::bench::IntervalFrameOptions interval_options;
   plume::bench::ThreadScalingOptions thread_options;
   peer_options.pictures = pictures;
-  if (rounds > 0) peer_options.rounds = thread_options.rounds = hexahedra_options.rounds = rounds;
-  if (size > 0) peer_options.size = thread_options.size = hexahedra_options.size = size;
+  if (rounds > 0)
+    peer_options.rounds = thread_options.rounds = hexahedra_options.rounds =
+        interval_options.rounds = rounds;
+  if (size > 0)
+    peer_options.size = thread_options.size = hexahedra_options.size = interval_options.size = size;
   try {
     bool good = true;
     if (peers) good = plume::bench::compare_peer_frames(peer_options) && good;
@@ -67,6 +77,10 @@ int main(int argc, char** argv) {
       good = plume::bench::compare_with_tetrahedra(hexahedra_options) && good;
       good = plume::bench::compare_orders(hexahedra_options) && good;
       plume::bench::compare_with_thesis_frames(hexahedra_options);
+    }
+    if (intervals) {
+      good = plume::bench::compare_with_volume_alone(interval_options) && good;
+      plume::bench::compare_ways(interval_options);
     }
     return good ? 0 : 1;
   } catch (const plume::Error& error) {
