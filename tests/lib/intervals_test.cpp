@@ -266,6 +266,37 @@ TEST(Classified, ProblemsAreErrors) {
             std::string::npos);
 }
 
+// The paper's way, to compare: near what is split in data space on the average, and off it at
+// bounds.
+TEST(Classified, TablesShowNearlyTheSame) {
+  Scene scene(with(generate("box-tetrahedra", {6, 0.2, 3}), linear));
+  scene.set_classification(everything());
+  const Camera camera = askew(scene.bounds());
+  const Image split = render(scene, camera, exact(48)).image;
+  RenderSettings table = exact(48);
+  table.interval_way = IntervalWay::table;
+  double last = 1;
+  for (const int scalars : {32, 128, 512}) {
+    table.interval_table.scalar_count = scalars;
+    const RenderResult result = render(scene, camera, table);
+    EXPECT_TRUE(has(result.statistics.plan, "intervals: [1, 1.5] [1.5, 2] [4, 4.5], from tables"));
+    EXPECT_TRUE(has(result.statistics.plan, "rays: one by one"));
+    double mean = 0;
+    for (std::size_t i = 0; i < split.rgba.size(); ++i)
+      mean +=
+          std::abs(result.image.rgba[i] - split.rgba[i]) / static_cast<double>(split.rgba.size());
+    EXPECT_LT(mean, 0.5 * last) << scalars;
+    last = mean;
+  }
+  EXPECT_LT(last, 2e-3);
+  EXPECT_GT(last, 1e-7);
+  table.channels = {"depth"};
+  EXPECT_THROW(render(scene, camera, table), Error);
+  table.channels = {};
+  table.interval_table.scalar_count = 1;
+  EXPECT_THROW(render(scene, camera, table), Error);
+}
+
 // Values of cells: an isosurface lies between them, and an interval in a jump is crossed whole.
 TEST(Classified, CellsThatAreConstantAreJumpsBetweenThem) {
   Mesh mesh = generate("box-rectilinear", {4, 0, 1});
