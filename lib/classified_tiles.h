@@ -52,7 +52,7 @@ class ClassifiedTiles : public TileMaker {
     const ChannelPlaces& channels = frame_.channels();
     frame_.put(channels.depth, place, pixel.first.t);
     frame_.put(channels.optical_depth, place, pixel.optical_depth);
-    frame_.put(channels.cell_count, place, static_cast<double>(pixel.cells));
+    frame_.put(channels.cell_count, place, static_cast<double>(pixel.cells()));
     frame_.put(channels.cell_id, place,
                pixel.first.is_one() ? walkable_.mesh.original_cell(pixel.first.cell) : -1.0);
     frame_.put(channels.isovalue, place, pixel.first.scalar);

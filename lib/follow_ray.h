@@ -13,7 +13,8 @@ template <class Walker, class Visit>
 TraceResult trace_clipped(const Frame& frame, const Walkable<Walker>& walkable, Ray ray,
                           Visit&& visit) {
   if (!clip(ray, frame.settings().clip_planes)) return {};
-  return trace(walkable.mesh, walkable.boundary, ray, visit, frame.settings().order);
+  return trace(walkable.mesh, walkable.boundary, ray, visit,
+               {frame.settings().order, frame.tolerance()});
 }
 
 /// Follows the ray of a pixel, gives its segments to `consumer` until that returns false, and fills

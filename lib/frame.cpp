@@ -20,11 +20,13 @@ constexpr std::array<Frame::TilePixel, kTile* kTile> Frame::kTileOrder = [] {
 Frame::Frame(const Scene& scene, const Camera& camera, const RenderSettings& settings)
     : scene_(scene),
       settings_(settings),
+      window_(settings.window.value_or(PixelWindow{0, 0, settings.width, settings.height})),
       rays_(camera, settings.width, settings.height),
       optical_depth_(scene.transfer_function()),
-      tolerance_(1e-4 * (static_cast<double>(scene.field().high) - scene.field().low)) {
-  image_.width = settings.width;
-  image_.height = settings.height;
+      tolerance_(settings.scalar_tolerance *
+                 (static_cast<double>(scene.field().high) - scene.field().low)) {
+  image_.width = window_.width;
+  image_.height = window_.height;
   image_.rgba.assign(4 * pixel_count(), 0);
   // In the order in which they were asked for.
   for (const std::string& name : settings.channels) {

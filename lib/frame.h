@@ -21,7 +21,7 @@ struct Tile {
   int x = 0, y = 0;
 };
 
-/// A pixel, and where it is in the image's arrays.
+/// A pixel of the image, and where it is in its arrays.
 struct PixelPlace {
   int x, y;
   std::size_t index;
@@ -70,13 +70,15 @@ class Frame {
   double gap() const { return 1e-6 * scene_.bounds().diagonal(); }
   Image& image() { return image_; }
   std::size_t pixel_count() const {
-    return static_cast<std::size_t>(settings_.width) * static_cast<std::size_t>(settings_.height);
+    return static_cast<std::size_t>(window_.width) * static_cast<std::size_t>(window_.height);
   }
-  int tiles_across() const { return (settings_.width + kTile - 1) / kTile; }
-  int tiles_down() const { return (settings_.height + kTile - 1) / kTile; }
+  int tiles_across() const { return (window_.width + kTile - 1) / kTile; }
+  int tiles_down() const { return (window_.height + kTile - 1) / kTile; }
 
   /// The ray through the middle of a pixel.
-  Ray ray(const PixelPlace& pixel) const { return rays_(pixel.x + 0.5, pixel.y + 0.5); }
+  Ray ray(const PixelPlace& pixel) const {
+    return rays_(window_.x + pixel.x + 0.5, window_.y + pixel.y + 0.5);
+  }
   float* rgba(const PixelPlace& pixel) { return &image_.rgba[4 * pixel.index]; }
   void put(const std::optional<std::size_t>& channel, const PixelPlace& pixel, double value) {
     if (channel) image_.channels[*channel].values[pixel.index] = static_cast<float>(value);
@@ -95,9 +97,9 @@ class Frame {
   void for_each_pixel(const Tile& tile, Visit&& visit) const {
     for (const auto& [along, down] : kTileOrder) {
       const int x = tile.x + along, y = tile.y + down;
-      if (x >= settings_.width || y >= settings_.height) continue;
+      if (x >= window_.width || y >= window_.height) continue;
       visit(PixelPlace{x, y,
-                       static_cast<std::size_t>(y) * static_cast<std::size_t>(settings_.width) +
+                       static_cast<std::size_t>(y) * static_cast<std::size_t>(window_.width) +
                            static_cast<std::size_t>(x)});
     }
   }
@@ -113,6 +115,7 @@ class Frame {
 
   const Scene& scene_;
   const RenderSettings& settings_;
+  const PixelWindow window_;  // all of the picture, where none was asked for
   PixelRays rays_;
   OpticalDepth optical_depth_;
   double tolerance_;

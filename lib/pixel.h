@@ -131,12 +131,17 @@ struct AveragePixel {
   }
 };
 
-/// The cells that the ray goes through.
+/// The cells that the ray goes through, each as often as it comes in. A cell's part may come as
+/// several segments, which join.
 struct CellCountPixel {
   std::uint64_t cells = 0;
+  std::uint32_t cell = 0xFFFFFFFFu;
+  double end = 0;
 
-  bool operator()(const Segment&) {
-    ++cells;
+  bool operator()(const Segment& segment) {
+    if (cells == 0 || segment.cell != cell || segment.t_in != end) ++cells;
+    cell = segment.cell;
+    end = segment.t_out;
     return true;
   }
   bool seen() const { return cells > 0; }
@@ -161,8 +166,8 @@ struct OpticalDepthPixel {
   double value() const { return depth; }
 };
 
-/// The distance to the first segment, or linear part of one, that is not transparent; infinite
-/// where there is none.
+/// The distance to where extinction begins, on the first linear part that is not transparent;
+/// infinite where there is none.
 struct FirstPixel {
   const OpticalDepth& optics;
   double tolerance;  ///< of the linear parts of segments
@@ -172,13 +177,30 @@ struct FirstPixel {
   bool operator()(const Segment& segment) {
     return for_each_linear_part(segment, tolerance, [this](const Segment& part) {
       if (!(optics(part.s_in, part.s_out, segment_length(part)) > 0)) return true;
-      depth = part.t_in;
+      depth = part.t_in + clear_share(part) * (part.t_out - part.t_in);
       cell = part.cell;
       return false;
     });
   }
   bool seen() const { return depth < std::numeric_limits<double>::infinity(); }
   double value() const { return depth; }
+
+ private:
+  // How much of a part, which is not all transparent, is so before extinction begins: optical depth
+  // never falls along the ray, so that halving finds it, to 2^-24 of the part.
+  double clear_share(const Segment& part) const {
+    auto is_clear = [&](double share) {
+      const auto there = static_cast<float>(part.s_in + share * (part.s_out - part.s_in));
+      return !(optics.mean_extinction(part.s_in, there) > 0);
+    };
+    if (!is_clear(0)) return 0;
+    double low = 0, high = 1;
+    for (int bit = 0; bit < 24; ++bit) {
+      const double middle = (low + high) / 2;
+      (is_clear(middle) ? low : high) = middle;
+    }
+    return low;
+  }
 };
 
 }  // namespace plume

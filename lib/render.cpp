@@ -5,12 +5,14 @@
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
+#include <tbb/tick_count.h>
 
 #include <algorithm>
 #include <atomic>
 #include <mutex>
 
 #include "plume/lib/frame.h"
+#include "plume/lib/planner.h"
 #include "plume/lib/render_check.h"
 #include "plume/lib/render_plan.h"
 #include "plume/lib/scene_body.h"
@@ -76,11 +78,17 @@ bool make_tiles(const Frame& frame, TileMaker& maker, const Progress& progress,
 RenderResult render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                     const Progress& progress) {
   check_settings(scene, settings);
-  RenderSettings effective = settings;
-  Frame frame(scene, camera, effective);
   RenderResult result;
+  std::vector<std::string> reasons;
+  const tbb::tick_count start = tbb::tick_count::now();
+  RenderSettings effective =
+      settings.tolerance ? plan_for(scene, camera, settings, reasons) : settings;
+  result.statistics.seconds_planning = (tbb::tick_count::now() - start).seconds();
+  result.statistics.order = effective.order;
+  Frame frame(scene, camera, effective);
   std::vector<std::string>& plan = result.statistics.plan;
-  plan = describe_plan(scene, settings);
+  plan = describe_plan(scene, effective);
+  plan.insert(plan.begin(), reasons.begin(), reasons.end());
   const std::optional<PacketPieces> pieces = pieces_for_packets(frame);
   if (has_packets(scene))
     plan.push_back(
@@ -93,7 +101,7 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
     plan.push_back(frame.channels().whole_rays()
                        ? "early termination: off, as a channel needs whole rays"
                        : fmt::format("early termination: at a transmittance of {:g}",
-                                     settings.early_termination));
+                                     effective.early_termination));
   }
 
   // A table is built only where the picture needs what is in it: colours.

@@ -46,9 +46,31 @@ enum class Mode : std::uint8_t {
   cell_count,
 };
 
+/// A part of a picture, in pixels from its top left corner.
+struct PixelWindow {
+  int x = 0, y = 0, width = 1, height = 1;
+};
+
+/// An error to ask for, in the place of a method.
+struct Tolerance {
+  /// The greatest difference of a linear RGBA channel from the reference: the cells' own
+  /// interpolation along whole rays, followed and integrated closely. In the modes that show one
+  /// number a ray as a shade of gray, of the shade. In [0, 1); 0 is the reference.
+  double max_error = 1e-3;
+  /// What of RenderSettings is chosen; the others stay what they are there.
+  bool choose_order = true;
+  bool choose_integrator = true;
+  bool choose_early_termination = true;
+};
+
 struct RenderSettings {
   int width = 1024;  ///< pixels, 1 to 65536
   int height = 768;  ///< pixels, 1 to 65536
+  /// Renders this part of the picture alone: the image has its size.
+  std::optional<PixelWindow> window;
+  /// The cheapest plan that keeps to this error is made and taken (lib/planner.h says how, and what
+  /// of it is a bound and what is measured). The statistics' plan says which and why.
+  std::optional<Tolerance> tolerance;
   Mode mode = Mode::volume;
   /// Of the volume.
   IntegratorSettings integrator;
@@ -64,11 +86,14 @@ struct RenderSettings {
   /// Of the mesh, only what all of these keep is seen, in every mode. A box is planes_of_box().
   std::vector<ClipPlane> clip_planes;
   /// The polynomial that the scalar is taken for inside of cells that are not tetrahedra; see
-  /// traverse/inner_scalar.h. Optics see it in linear parts that differ from it by at most 1e-4 of
-  /// the field's range (see ScalarPolynomial for cells across which it bends too much for that);
-  /// maxima and integrals are exact. Above `linear`, the whole of a cell with a NaN value is
-  /// transparent; a linear segment is where one of the two faces has such a value.
+  /// traverse/inner_scalar.h. Maxima and integrals are those of the polynomial. Above `linear`, the
+  /// whole of a cell with a NaN value is transparent; a linear segment is where one of the two
+  /// faces has such a value.
   ScalarOrder order = ScalarOrder::linear;
+  /// Above order 1, optics see the scalar in linear parts that differ from it by at most this share
+  /// of the field's range (see ScalarPolynomial for cells across which it bends too much for that);
+  /// `adaptive` follows the cells' interpolation to the same. In (0, 1).
+  double scalar_tolerance = 1e-4;
   /// A ray ends once it is seen through by no more than this share: a colour channel is off by at
   /// most this times the transfer function's largest value in it. In [0, 1).
   double early_termination = 1e-4;
@@ -96,6 +121,9 @@ struct RenderStatistics {
   std::uint64_t rays_in_packets = 0;  ///< rays walked by packets; the others one by one
   std::uint64_t surfaces = 0;         ///< isosurfaces crossed, before rays ended
   std::uint64_t visits = 0;           ///< to interval volumes, before rays ended
+  double seconds_planning = 0;        ///< spent on finding a plan for a tolerance
+  /// The order that was taken: the settings', or the plan's.
+  ScalarOrder order = ScalarOrder::linear;
   /// What a mode's numbers run from and to, in its channel's unit; nothing in the mode volume and
   /// where no ray has one.
   std::optional<std::array<float, 2>> values;

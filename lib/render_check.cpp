@@ -54,6 +54,16 @@ void check_interval_way(const Scene& scene, const RenderSettings& settings) {
                     table.scalar_count, table.length_count));
 }
 
+void check_window(const PixelWindow& window, const RenderSettings& settings) {
+  const bool inside = window.x >= 0 && window.y >= 0 && window.width >= 1 && window.height >= 1 &&
+                      window.width <= settings.width - window.x &&
+                      window.height <= settings.height - window.y;
+  if (!inside)
+    throw Error(fmt::format(
+        "a window of {}x{} pixels at ({}, {}): it must lie in the picture of {}x{}", window.width,
+        window.height, window.x, window.y, settings.width, settings.height));
+}
+
 }  // namespace
 
 void check_settings(const Scene& scene, const RenderSettings& settings) {
@@ -70,9 +80,18 @@ void check_settings(const Scene& scene, const RenderSettings& settings) {
     throw Error(fmt::format("{} threads: it must be 1 or more, or 0 for all", settings.threads));
   if (settings.integrator.samples < 1)
     throw Error(fmt::format("{} samples per segment: at least 1", settings.integrator.samples));
-  if (settings.order < ScalarOrder::linear || settings.order > ScalarOrder::cubic)
-    throw Error(fmt::format("order {}: it must be 1 (linear), 2 (quadratic) or 3 (cubic)",
-                            static_cast<int>(settings.order)));
+  if (settings.order < ScalarOrder::linear || settings.order > ScalarOrder::adaptive)
+    throw Error(
+        fmt::format("order {}: it must be 1 (linear), 2 (quadratic), 3 (cubic) or 4 (adaptive)",
+                    static_cast<int>(settings.order)));
+  if (!(settings.scalar_tolerance > 0 && settings.scalar_tolerance < 1))
+    throw Error(fmt::format("a scalar tolerance of {}: it must be above 0 and below 1",
+                            settings.scalar_tolerance));
+  if (settings.tolerance &&
+      !(settings.tolerance->max_error >= 0 && settings.tolerance->max_error < 1))
+    throw Error(fmt::format("a tolerance of {}: it must be at least 0 (the reference) and below 1",
+                            settings.tolerance->max_error));
+  if (settings.window) check_window(*settings.window, settings);
   check_channels(scene, settings);
   check_interval_way(scene, settings);
   if (settings.lighting)

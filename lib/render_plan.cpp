@@ -12,9 +12,13 @@ bool is_classified(const Scene& scene, const RenderSettings& settings) {
          (settings.mode == Mode::volume || settings.mode == Mode::depth);
 }
 
-bool is_linear(const Scene& scene, const RenderSettings& settings) {
-  return settings.order == ScalarOrder::linear || scene.field().association == Association::cell ||
+bool has_linear_cells(const Scene& scene) {
+  return scene.field().association == Association::cell ||
          std::string(scene.form()) == "tetrahedra";
+}
+
+bool is_linear(const Scene& scene, const RenderSettings& settings) {
+  return settings.order == ScalarOrder::linear || has_linear_cells(scene);
 }
 
 namespace {
@@ -27,6 +31,8 @@ const char* describe_order(ScalarOrder order) {
       return "order 2: quadratic, by one value inside of each cell";
     case ScalarOrder::cubic:
       return "order 3: cubic, by two values inside of each cell";
+    case ScalarOrder::adaptive:
+      return "adaptive: cut until cubics follow the cells' interpolation";
   }
   return "linear between a cell's faces";
 }

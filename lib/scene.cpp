@@ -187,14 +187,14 @@ std::size_t Scene::bytes() const {
 bool Scene::has_gradients() const { return body_->gradients.has_value(); }
 
 TraceResult Scene::trace(const Ray& ray, const std::function<bool(const Segment&)>& visit,
-                         ScalarOrder order) const {
+                         const ScalarRequest& request) const {
   return std::visit(
       [&](const auto& w) {
         auto renumbered = [&](Segment segment) {
           segment.cell = w->mesh.original_cell(segment.cell);
           return visit(segment);
         };
-        return plume::trace(w->mesh, w->boundary, ray, renumbered, order);
+        return plume::trace(w->mesh, w->boundary, ray, renumbered, request);
       },
       body_->walkable);
 }

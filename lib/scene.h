@@ -92,10 +92,11 @@ class Scene {
   /// Follows a ray and calls `visit` for each segment, front to back, until that returns false.
   /// `Segment::cell` is a number of the user's mesh where keep_cell_numbers was set or the mesh is
   /// a grid. Above `linear`, segments have inner values where their cells are not linear
-  /// (scalar_at() gives the scalar anywhere along one). For programs with an optics of their own;
+  /// (scalar_at() gives the scalar anywhere along one). `adaptive` may make several segments of a
+  /// cell. For programs with an optics of their own;
   /// see traverse/trace.h for the guarantees.
   TraceResult trace(const Ray& ray, const std::function<bool(const Segment&)>& visit,
-                    ScalarOrder order = ScalarOrder::linear) const;
+                    const ScalarRequest& request = {}) const;
 
   struct Body;
   /// For render().

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -58,6 +59,52 @@ void sample_inside(const Mesh& mesh, const ShearedFrame& frame, double z_in, dou
   }
   if (scalars_inside(mesh, segment.cell, {places.data(), count}, segment.inner))
     segment.order = order;
+}
+
+/// Cuts a linear segment from z_in to z_out in halves until in each part the cubic through four
+/// equidistant values (or, where that will do, the chord) is within `tolerance` of the scalar at a
+/// sixth, at half and at five sixths of the way, or the parts are 2^-12 of the segment (at a kink
+/// inside of a polyhedron, say). Calls visit(const Segment&) for each part until that returns
+/// false; returns whether all were visited. Parts join bit for bit. Where the inside has no answer
+/// the part is linear.
+///
+/// The tolerance holds where the scalar was looked at; what bends more between two such places is
+/// not seen. Below 1e-6 of the field's range there is nothing but rounding.
+template <class Mesh, class Visit>
+bool for_each_close_part(const Mesh& mesh, const ShearedFrame& frame, double z_in, double z_out,
+                         double tolerance, const Segment& whole, Visit&& visit) {
+  constexpr int kDeepest = 12;
+  auto part = [&](auto& self, double from, double to, float s_in, float s_out, int depth) -> bool {
+    Segment segment = whole;
+    const double length = whole.t_out - whole.t_in;
+    if (from > 0) segment.t_in = whole.t_in + from * length;
+    if (to < 1) segment.t_out = whole.t_in + to * length;
+    segment.s_in = s_in;
+    segment.s_out = s_out;
+    std::array<Place, 5> places;  // at a sixth, two, three, four, five
+    for (std::size_t i = 0; i < 5; ++i) {
+      const double share = from + (to - from) * static_cast<double>(i + 1) / 6;
+      places[i] = frame.local(z_in + share * (z_out - z_in));
+    }
+    std::array<float, 5> values;
+    if (!scalars_inside(mesh, whole.cell, places, values.data())) return visit(segment);
+    auto off_by = [&](std::size_t i) {
+      return std::abs(scalar_at(segment, static_cast<double>(i + 1) / 6) - values[i]);
+    };
+    bool close = true;
+    for (std::size_t i = 0; i < 5; ++i) close = close && !(off_by(i) > tolerance);
+    if (close) return visit(segment);
+    segment.order = ScalarOrder::cubic;
+    segment.inner[0] = values[1];
+    segment.inner[1] = values[3];
+    if (depth == kDeepest ||
+        !(off_by(0) > tolerance || off_by(2) > tolerance || off_by(4) > tolerance))
+      return visit(segment);
+    const double middle = from + (to - from) / 2;
+    return self(self, from, middle, s_in, values[2], depth + 1) &&
+           self(self, middle, to, values[2], s_out, depth + 1);
+  };
+  return part(part, 0, 1, whole.s_in, whole.s_out, 0);
 }
 
 }  // namespace plume

@@ -8,7 +8,20 @@ namespace plume {
 /// The polynomial that a cell's scalar is taken for along a segment: through the values at its ends
 /// and none, one or two inside of the cell (inner_scalar.h). A segment may be linear whatever was
 /// asked for: in tetrahedra, where cells are constant, and where the inside has no answer.
-enum class ScalarOrder : std::uint8_t { linear = 1, quadratic = 2, cubic = 3 };
+///
+/// `adaptive` is a request alone: a cell's part of the ray then comes as one or several segments,
+/// linear or cubic, which follow the cell's interpolation to a tolerance (ScalarRequest).
+enum class ScalarOrder : std::uint8_t { linear = 1, quadratic = 2, cubic = 3, adaptive = 4 };
+
+/// How closely segments are to follow the interpolation inside of cells.
+struct ScalarRequest {
+  ScalarOrder order = ScalarOrder::linear;
+  /// `adaptive`: by how much the scalar may be off where it is looked at, in the field's unit.
+  double tolerance = 0;
+
+  ScalarRequest() = default;
+  ScalarRequest(ScalarOrder asked, double off_by = 0) : order(asked), tolerance(off_by) {}
+};
 
 /// The part of a ray inside one cell, in front-to-back order along the ray.
 struct Segment {
@@ -31,6 +44,7 @@ inline double scalar_at(const Segment& segment, double share) {
   const double s_in = segment.s_in, s_out = segment.s_out;
   switch (segment.order) {
     case ScalarOrder::linear:
+    case ScalarOrder::adaptive:
       break;
     case ScalarOrder::quadratic: {
       const double d01 = 2 * (segment.inner[0] - s_in), d12 = 2 * (s_out - segment.inner[0]);

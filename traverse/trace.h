@@ -50,10 +50,11 @@ inline void cut(Segment& segment, double from, double to) {
 /// counted twice. Where a segment is cut (there, at t_min, at t_max) its scalar is that of the
 /// whole.
 ///
-/// Above `linear`, segments get inner values where their cells are not linear (inner_scalar.h).
+/// Above `linear`, segments get inner values where their cells are not linear (inner_scalar.h);
+/// `adaptive` makes several segments of one cell where it needs them.
 template <class Walker, class Visit>
 TraceResult trace(const typename Walker::Mesh& mesh, const BoundaryIndex<Walker>& boundary,
-                  const Ray& ray, Visit&& visit, ScalarOrder order = ScalarOrder::linear) {
+                  const Ray& ray, Visit&& visit, const ScalarRequest& request = {}) {
   TraceResult result;
   ShearedFrame frame;
   if (!frame.set(ray, mesh.frame)) return result;
@@ -89,11 +90,24 @@ TraceResult trace(const typename Walker::Mesh& mesh, const BoundaryIndex<Walker>
       if (segment.t_out < seen_until) continue;
       ++result.cells;
       // Where the ray would have to go back, its ends are not where the scalars are.
-      if (order != ScalarOrder::linear && segment.t_in == frame.t(z_from) &&
-          segment.t_out == frame.t(exit->z))
-        sample_inside(mesh, frame, z_from, exit->z, order, segment);
-      cut(segment, seen_until, ray.t_max);
-      if (!visit(static_cast<const Segment&>(segment))) {
+      const bool bends = request.order != ScalarOrder::linear && segment.t_in == frame.t(z_from) &&
+                         segment.t_out == frame.t(exit->z);
+      bool more = true;
+      if (bends && request.order == ScalarOrder::adaptive && mesh.cell_values.empty() &&
+          z_from != exit->z) {
+        more = for_each_close_part(mesh, frame, z_from, exit->z, request.tolerance, segment,
+                                   [&](Segment part) {
+                                     if (part.t_out < seen_until || part.t_in > ray.t_max)
+                                       return true;
+                                     cut(part, seen_until, ray.t_max);
+                                     return static_cast<bool>(visit(std::as_const(part)));
+                                   });
+      } else {
+        if (bends) sample_inside(mesh, frame, z_from, exit->z, request.order, segment);
+        cut(segment, seen_until, ray.t_max);
+        more = visit(std::as_const(segment));
+      }
+      if (!more) {
         result.end = WalkEnd::stopped;
         return result;
       }

@@ -17,7 +17,8 @@ class BoundaryIndex<RectilinearWalker> {
 
 /// The scalar along the walker's cell from t_in to t_out, which may be cut by the ray's range.
 /// Linear: between the values on the cell's faces, as elsewhere. Beyond: the trilinear interpolant
-/// itself at the segment's ends and in between; along a ray it is a cubic, so cubic is exact.
+/// itself at the segment's ends and in between; along a ray it is a cubic, so cubic is exact, and
+/// what `adaptive` is.
 inline void take_scalar(const RectilinearWalker& walker, const Ray& ray, ScalarOrder order,
                         Segment& segment) {
   const bool from_inside = segment.t_in<ray.t_min, to_inside = segment.t_out> ray.t_max;
@@ -47,13 +48,15 @@ inline void take_scalar(const RectilinearWalker& walker, const Ray& ray, ScalarO
 /// each cell, and linear whatever order is asked for. No ray is lost.
 template <class Visit>
 TraceResult trace(const WalkableRectilinear& mesh, const BoundaryIndex<RectilinearWalker>&,
-                  const Ray& ray, Visit&& visit, ScalarOrder order = ScalarOrder::linear) {
+                  const Ray& ray, Visit&& visit, const ScalarRequest& request = {}) {
   TraceResult result;
   RectilinearWalker walker(mesh);
   if (!walker.start(ray)) return result;
   const bool on_points = mesh.cell_values.empty();
   const bool any_hidden = !mesh.hidden.empty();
-  if (!on_points) order = ScalarOrder::linear;
+  const ScalarOrder order = !on_points                               ? ScalarOrder::linear
+                            : request.order == ScalarOrder::adaptive ? ScalarOrder::cubic
+                                                                     : request.order;
   float s_in = on_points ? walker.entry_scalar() : 0;
   for (bool inside = false;; walker.advance()) {
     const std::uint32_t cell = walker.cell();

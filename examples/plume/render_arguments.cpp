@@ -101,10 +101,17 @@ void add_render_options(CLI::App& command, RenderArguments& args) {
   command.add_option("--samples", args.samples, "Samples a segment, for midpoint (1)")
       ->check(CLI::PositiveNumber);
   command
-      .add_option("--order", args.order,
-                  "The scalar inside of a cell: 1 linear, 2 quadratic, 3 cubic; tetrahedra are "
-                  "linear (1)")
+      .add_option(
+          "--order", args.order,
+          "The scalar inside of a cell: 1 linear, 2 quadratic, 3 cubic, adaptive as close as "
+          "can be; tetrahedra are linear (1)")
       ->check(CLI::IsMember(names_of(kOrders)));
+  command
+      .add_option(
+          "--tolerance", args.tolerance,
+          "The greatest error of a linear RGBA channel, 0 for the reference: chooses order, "
+          "integrator and early termination, but what is given")
+      ->check(CLI::Range(0.0, 0.999));
   command
       .add_option("--early-termination", args.early_termination,
                   "Transmittance at which a ray ends (1e-4)")

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,14 +15,14 @@ namespace plume::command {
 struct RenderArguments {
   std::string mesh, solution, output = "picture.png", field, association, size = "1024x768";
   std::string view = "iso", camera, transfer_function, transfer_range, mode = "volume";
-  std::string integrator = "closed-form", order = "1", cell_data = "constant", background = "white",
-              stats;
+  std::string integrator, order, cell_data = "constant", background = "white", stats;
   std::string interval_form = "exponential";
   std::string interval_way = "split";
   std::vector<std::string> channels, isosurfaces, intervals, lights, clip_planes;
   std::string material, clip_box;
   double azimuth = 0, elevation = 0, zoom = 1, opacity_scale = 1, view_angle = 0;
-  double unit_distance = 0, early_termination = RenderSettings{}.early_termination;
+  double unit_distance = 0;
+  std::optional<double> early_termination, tolerance;
   int time_step = -1, samples = 1, threads = 0, bits = 8;
   bool no_volume = false, parallel = false, merge_points = false, quiet = false, verbose = false;
 };
@@ -38,7 +39,10 @@ inline const std::vector<std::pair<std::string, IntervalForm>> kIntervalForms{
 inline const std::vector<std::pair<std::string, IntervalWay>> kIntervalWays{
     {"split", IntervalWay::split}, {"table", IntervalWay::table}};
 inline const std::vector<std::pair<std::string, ScalarOrder>> kOrders{
-    {"1", ScalarOrder::linear}, {"2", ScalarOrder::quadratic}, {"3", ScalarOrder::cubic}};
+    {"1", ScalarOrder::linear},
+    {"2", ScalarOrder::quadratic},
+    {"3", ScalarOrder::cubic},
+    {"adaptive", ScalarOrder::adaptive}};
 
 template <class T>
 std::vector<std::string> names_of(const std::vector<std::pair<std::string, T>>& choices) {

@@ -87,12 +87,15 @@ void run(const RenderArguments& args) {
   settings.width = size.width;
   settings.height = size.height;
   settings.mode = mode_named(args.mode);
-  settings.integrator.kind = chosen(kIntegrators, args.integrator);
+  if (!args.integrator.empty()) settings.integrator.kind = chosen(kIntegrators, args.integrator);
   settings.integrator.samples = args.samples;
   settings.interval_form = chosen(kIntervalForms, args.interval_form);
   settings.interval_way = chosen(kIntervalWays, args.interval_way);
-  settings.order = chosen(kOrders, args.order);
-  settings.early_termination = args.early_termination;
+  if (!args.order.empty()) settings.order = chosen(kOrders, args.order);
+  if (args.early_termination) settings.early_termination = *args.early_termination;
+  if (args.tolerance)
+    settings.tolerance = Tolerance{*args.tolerance, args.order.empty(), args.integrator.empty(),
+                                   !args.early_termination};
   settings.threads = args.threads;
   settings.channels = args.channels;
   const Camera camera = choose_camera(scene.bounds(), args, aspect_ratio);

@@ -44,7 +44,7 @@ std::string render_report(const Scene& scene, const RenderSettings& settings,
       {"values_not_finite", field.not_finite},
       {"size", {settings.width, settings.height}},
       {"values", statistics.values ? nlohmann::json(*statistics.values) : nlohmann::json()},
-      {"order", static_cast<int>(settings.order)},
+      {"order", static_cast<int>(statistics.order)},
       {"plan", statistics.plan},
       {"findings", to_json(scene.findings())}};
   return stats.dump(2) + "\n";

@@ -9,6 +9,7 @@
 #include "plume/tests/bench/interval_frames.h"
 #include "plume/tests/bench/peer_frames.h"
 #include "plume/tests/bench/thread_scaling.h"
+#include "plume/tests/bench/tolerance_frames.h"
 
 namespace {
 
@@ -20,6 +21,7 @@ constexpr const char* kHelp = R"(plume_frame_bench: whole frames, from the rays 
                    thesis' frames
   --intervals      two intervals and an isosurface added to a volume against the volume alone;
                    split in data space against the paper's tables
+  --tolerance      what is asked for, what the planner chooses, and what that comes to, in all modes
                    all where none is asked for
   --rounds=N       how many frames each (5, with two threads 7); medians are reported
   --size=N         pixels along each side (512, with two threads 1024)
@@ -37,7 +39,7 @@ bool take(const std::string& argument, const std::string& name, int& value) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool peers = false, threads = false, hexahedra = false, intervals = false;
+  bool peers = false, threads = false, hexahedra = false, intervals = false, tolerance = false;
   int rounds = 0, size = 0;
   std::string pictures;
   for (int i = 1; i < argc; ++i) {
@@ -50,6 +52,8 @@ int main(int argc, char** argv) {
       hexahedra = true;
     else if (argument == "--intervals")
       intervals = true;
+    else if (argument == "--tolerance")
+      tolerance = true;
     else if (argument.rfind("--pictures=", 0) == 0)
       pictures = argument.substr(11);
     else if (!take(argument, "--rounds=", rounds) && !take(argument, "--size=", size)) {
@@ -57,8 +61,8 @@ int main(int argc, char** argv) {
       return argument == "--help" ? 0 : 2;
     }
   }
-  if (!peers && !threads && !hexahedra && !intervals)
-    peers = threads = hexahedra = intervals = true;
+  if (!peers && !threads && !hexahedra && !intervals && !tolerance)
+    peers = threads = hexahedra = intervals = tolerance = true;
   plume::bench::PeerFrameOptions peer_options;
   plume::bench::HexahedraFrameOptions hexahedra_options;
   plume::bench::IntervalFrameOptions interval_options;
@@ -82,6 +86,8 @@ int main(int argc, char** argv) {
       good = plume::bench::compare_with_volume_alone(interval_options) && good;
       plume::bench::compare_ways(interval_options);
     }
+    if (tolerance)
+      good = plume::bench::check_tolerances(size > 0 ? size : 256, rounds > 0 ? rounds : 3) && good;
     return good ? 0 : 1;
   } catch (const plume::Error& error) {
     std::fprintf(stderr, "plume_frame_bench: %s\n", error.what());

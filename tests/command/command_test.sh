@@ -72,6 +72,14 @@ for order in 1 2 3; do
   ok "order $order is in the statistics" json o.json "j['order']==$order"
 done
 ok "the order is in the plan" json o.json "any('order 3: cubic' in line for line in j['plan'])"
+ok "the adaptive order" "$plume" render mixed.vtu --order adaptive -o o4.png --size 40x30 --quiet
+for tolerance in 1e-2 1e-4 0; do
+  ok "tolerance $tolerance" "$plume" render mixed.vtu --tolerance $tolerance -o t.png --size 40x30 --stats t.json --quiet
+  ok "tolerance $tolerance is in the plan" json t.json "j['plan'][0].startswith('tolerance')"
+done
+ok "an order that is given stays" "$plume" render mixed.vtu --tolerance 1e-4 --order 1 -o t.png --size 40x30 --stats t.json --quiet
+ok "and is said" json t.json "j['order']==1"
+refused "a tolerance that is none" 2 "tolerance" "$plume" render mixed.vtu --tolerance -1 -o x.png
 ok "an EXR with channels" "$plume" render mixed.vtu -o a.exr --size 40x30 --quiet \
   --channels depth,optical_depth,cell_id,cell_count
 ok "a view that begins with a minus" "$plume" render box.vtu --view -x -o v.png --size 20x20 --quiet

@@ -159,6 +159,34 @@ TEST(Render, DepthIsTheDistanceToTheFirstContribution) {
   }
 }
 
+TEST(Render, DepthIsWhereExtinctionBeginsInsideOfACell) {
+  for (const char* form : kForms) {
+    SCOPED_TRACE(form);
+    Shot shot(form);
+    // Nothing above 3.3; below it a ramp, or a step. Along these rays the scalar falls.
+    if (form[4] == 't')
+      shot.scene.set_transfer_function({{{0, {2, {1, 0, 0}}}, {3.3f, {0, {1, 1, 1}}}}});
+    else
+      shot.scene.set_transfer_function({{{3.3f, {2, {1, 0, 0}}}, {3.3f, {0, {1, 1, 1}}}}});
+    shot.settings.mode = Mode::depth;
+    const Image image = render(shot.scene, shot.camera, shot.settings).image;
+    int inside = 0;
+    shot.for_each_ray([&](std::size_t i, const Ray& ray, const std::array<double, 2>& span) {
+      const float depth = image.channel("depth")->values[i];
+      if (span[1] < span[0]) return;
+      const double first = linear_at(ray, span[0]), last = linear_at(ray, span[1]);
+      if (last > 3.3 + 1e-4) {
+        ASSERT_TRUE(std::isinf(depth));
+      } else if (first > 3.3 + 1e-4 && last < 3.3 - 1e-2) {
+        ++inside;
+        const double expected = span[0] + (first - 3.3) / (first - last) * (span[1] - span[0]);
+        ASSERT_NEAR(depth, expected, 2e-5) << "pixel " << i;
+      }
+    });
+    EXPECT_GT(inside, 20);
+  }
+}
+
 TEST(Render, ChannelsHoldWhatTheyAreNamedFor) {
   for (const char* form : kForms) {
     SCOPED_TRACE(form);

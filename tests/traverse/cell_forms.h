@@ -24,7 +24,7 @@ struct Form {
   explicit Form(const Mesh& m)
       : user(m), field(select_field(m)), mesh(make(m, field)), boundary(mesh) {}
 
-  std::vector<Segment> segments(const Ray& ray, ScalarOrder order) const {
+  std::vector<Segment> segments(const Ray& ray, const ScalarRequest& order) const {
     std::vector<Segment> list;
     auto visit = [&](const Segment& segment) {
       list.push_back(segment);

@@ -26,7 +26,7 @@ struct Error {
 
 // How far segments' scalars are from the isoparametric oracle, along seeded rays.
 template <class Walker>
-Error error_along_rays(const Form<Walker>& form, ScalarOrder order, int rays) {
+Error error_along_rays(const Form<Walker>& form, const ScalarRequest& request, int rays) {
   const Bounds bounds = bounds_of(form.user.points);
   MeshSpots spots(form.user, bounds, 31);
   const CellReader cells(form.user);
@@ -37,9 +37,9 @@ Error error_along_rays(const Form<Walker>& form, ScalarOrder order, int rays) {
   std::vector<double> scalars;
   for (int i = 0; i < rays; ++i) {
     const Ray ray = ray_towards(spots.around(), spots.inside());
-    for (const Segment& s : form.segments(ray, order)) {
+    for (const Segment& s : form.segments(ray, request)) {
       if (s.t_out - s.t_in < 1e-3 * bounds.diagonal() / std::cbrt(form.user.cell_count())) continue;
-      if (s.order != order) ++error.kept_linear;
+      if (s.order != request.order) ++error.kept_linear;
       const std::uint32_t cell = form.mesh.original_cell(s.cell);
       cells.points(cell, ids);
       points.clear();
@@ -119,6 +119,48 @@ TEST(InnerScalar, GainsAFactorWhereRefinementDoesNotUntwist) {
   for (const double order : c.order) EXPECT_NEAR(order, 2, 0.2);
   EXPECT_LT(4 * c.finest[1], c.finest[0]);
   EXPECT_LT(3 * c.finest[2], c.finest[1]);
+}
+
+// Coarse and twisted cells, where no fixed order will do.
+template <class Walker>
+void expect_adaptive(const char* name, double jitter) {
+  SCOPED_TRACE(name);
+  const Form<Walker> form(mapped(generate(name, {3, jitter, 5}), twist, smooth_field));
+  for (const double tolerance : {1e-3, 1e-4, 1e-5, 1e-6}) {
+    const Error error = error_along_rays(form, {ScalarOrder::adaptive, tolerance}, 60);
+    // Between the places where it was looked at a cubic may be off by more, by some factor.
+    EXPECT_LE(error.max, 2 * tolerance + 2e-7) << tolerance;
+  }
+  // Parts of a cell join, and begin and end where the cell's linear segment does.
+  MeshSpots spots(form.user, bounds_of(form.user.points), 31);
+  std::size_t cut = 0;
+  for (int i = 0; i < 60; ++i) {
+    const Ray ray = ray_towards(spots.around(), spots.inside());
+    const auto whole = form.segments(ray, ScalarOrder::linear);
+    const auto parts = form.segments(ray, {ScalarOrder::adaptive, 1e-6});
+    std::size_t at = 0;
+    for (const Segment& segment : whole) {
+      ASSERT_LT(at, parts.size());
+      EXPECT_EQ(parts[at].t_in, segment.t_in);
+      EXPECT_EQ(parts[at].s_in, segment.s_in);
+      while (parts[at].t_out != segment.t_out) {
+        ASSERT_LT(++at, parts.size());
+        EXPECT_EQ(parts[at].t_in, parts[at - 1].t_out);
+        EXPECT_EQ(parts[at].s_in, parts[at - 1].s_out);
+        EXPECT_EQ(parts[at].cell, segment.cell);
+        ++cut;
+      }
+      EXPECT_EQ(parts[at].s_out, segment.s_out);
+      ++at;
+    }
+    EXPECT_EQ(at, parts.size());
+  }
+  EXPECT_GT(cut, 100u);
+}
+
+TEST(InnerScalar, AdaptiveFollowsTheInterpolationToItsTolerance) {
+  expect_adaptive<GridWalker>("twisted", 0.3);
+  expect_adaptive<CellWalker>("box-wedges", 0.1);
 }
 
 // A random place in one of the parts of a face by which it is measured, and its scalar.

@@ -1,0 +1,54 @@
+/// From an error to a method.
+///
+/// What a picture's error is made of, and how each part of it is known:
+///
+/// - **Early termination**: a bound. A ray that ends at a transmittance T is off by at most T in
+///   alpha and T times the greatest colour in a colour. It is given a quarter of the tolerance,
+///   half where nothing else is to be chosen.
+/// - **Integrator**: a bound. The closed form is exact up to rounding: kPacketError by packets,
+///   kScalarError ray by ray, which is taken where packets' is too much.
+/// - **Order of the scalar** in cells that are not tetrahedra: measured. A bound over what a cell's
+///   corners allow is some hundred times what happens, for it cannot know that errors along a ray
+///   cancel, and is infinite where a cell is degenerate. So candidates are compared with the
+///   reference on this very picture: on a small version of all of it, and then, pixel by pixel, in
+///   windows around the places where the small version is worst. The greatest difference is taken
+///   twice, in the modes of extrema five times. It is an estimate: tests/lib/planner_test.cpp and
+///   docs/evidence.md say how it fares.
+///
+/// The reference is order `adaptive` at a thousandth of the tolerance, 1e-6 to 1e-5 of the field's
+/// range, by whole rays. Where no candidate will do, it is the plan.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "plume/lib/render.h"
+
+namespace plume {
+
+/// What packets' pictures may differ by from the scalar walker's in double, in a channel, per unit
+/// of colour; and what rounding leaves in the latter. Measured in tests/lib/packets_test.cpp and
+/// tests/lib/closed_form_scenes_test.cpp.
+inline constexpr double kPacketError = 1e-5;
+inline constexpr double kScalarError = 2e-6;
+
+/// The settings of the reference: what errors are measured against. `max_error` says how closely it
+/// follows the cells' interpolation.
+RenderSettings reference_settings(RenderSettings settings, double max_error = 0);
+
+/// Settings without `tolerance`, chosen to keep to it, and the reasons, one choice a line, appended
+/// to `reasons`. Renders small pictures to find out, where the scalar is not linear in all cells.
+/// Requires settings.tolerance, and what check_settings() lets pass.
+RenderSettings plan_for(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                        std::vector<std::string>& reasons);
+
+/// In a mode that shows a number as a shade of gray: how far apart the numbers are that are shown
+/// as black and as white in this picture. 0 in the other modes.
+double shade_width(const Image& picture, Mode mode);
+
+/// The greatest difference of a channel between two pictures of a mode: of linear RGBA where
+/// `width` is 0; else of the number in shares of `width` (see shade_width()), and of alpha.
+/// Requires the same sizes.
+double greatest_difference(const Image& picture, const Image& reference, Mode mode, double width);
+
+}  // namespace plume

@@ -1,0 +1,154 @@
+// A tolerance is kept to, and what a plan is made of.
+
+#include "plume/lib/planner.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "plume/datasets/generate.h"
+#include "plume/lib/plume.h"
+#include "plume/lib/render_modes.h"
+#include "plume/mesh/error.h"
+
+namespace plume::test {
+namespace {
+
+RenderSettings settings_of(Mode mode) {
+  RenderSettings settings;
+  settings.width = 64;
+  settings.height = 45;
+  settings.mode = mode;
+  return settings;
+}
+
+std::string text_of(const std::vector<std::string>& plan) {
+  std::string text;
+  for (const std::string& line : plan) text += line + "\n";
+  return text;
+}
+
+TEST(Planner, KeepsToTheToleranceInEveryMode) {
+  for (const char* form : {"twisted", "box-tetrahedra", "box-mixed", "box-rectilinear"}) {
+    const Scene scene(generate(form, {4, 0.3, 3}));
+    const Camera camera = named_view("iso", scene.bounds());
+    for (const ModeInWords& words : modes_in_words()) {
+      SCOPED_TRACE(std::string(form) + ", " + words.name);
+      RenderSettings settings = settings_of(words.mode);
+      const Image reference = render(scene, camera, reference_settings(settings)).image;
+      const double width = shade_width(reference, words.mode);
+      for (const double asked : {1e-2, 1e-4}) {
+        settings.tolerance = Tolerance{asked};
+        const RenderResult result = render(scene, camera, settings);
+        EXPECT_LE(greatest_difference(result.image, reference, words.mode, width), asked)
+            << text_of(result.statistics.plan);
+        EXPECT_EQ(result.statistics.plan.front().rfind("tolerance", 0), 0u);
+      }
+    }
+  }
+}
+
+TEST(Planner, TakesTheCheapestOrderThatWillDo) {
+  const Scene scene(generate("twisted", {6, 0.3, 3}));
+  const Camera camera = named_view("iso", scene.bounds());
+  ScalarOrder before = ScalarOrder::linear;
+  for (const double asked : {0.5, 1e-2, 1e-4, 1e-6}) {
+    RenderSettings settings = settings_of(Mode::volume);
+    settings.tolerance = Tolerance{asked};
+    std::vector<std::string> reasons;
+    const RenderSettings plan = plan_for(scene, camera, settings, reasons);
+    EXPECT_FALSE(plan.tolerance);
+    EXPECT_GE(plan.order, before) << text_of(reasons);
+    before = plan.order;
+    if (asked == 0.5) {
+      EXPECT_EQ(plan.order, ScalarOrder::linear) << text_of(reasons);
+      EXPECT_FALSE(plan.scalar_twin);
+    }
+  }
+  EXPECT_GT(before, ScalarOrder::linear);
+}
+
+TEST(Planner, LooksForNoOrderWhereCellsAreLinear) {
+  const Scene scene(generate("box-tetrahedra", {4, 0.2, 1}));
+  const Camera camera = named_view("iso", scene.bounds());
+  RenderSettings settings = settings_of(Mode::volume);
+  settings.tolerance = Tolerance{1e-3};
+  std::vector<std::string> reasons;
+  const RenderSettings plan = plan_for(scene, camera, settings, reasons);
+  EXPECT_EQ(plan.order, ScalarOrder::linear);
+  EXPECT_GT(plan.early_termination, 1e-4);
+  EXPECT_EQ(text_of(reasons).find("order"), std::string::npos);
+  // Half of a tolerance that packets' rounding would use up.
+  settings.tolerance = Tolerance{1e-5};
+  EXPECT_TRUE(plan_for(scene, camera, settings, reasons).scalar_twin);
+}
+
+TEST(Planner, NoToleranceAtAllIsTheReference) {
+  const Scene scene(generate("twisted", {4, 0.3, 3}));
+  const Camera camera = named_view("iso", scene.bounds());
+  RenderSettings settings = settings_of(Mode::volume);
+  const Image reference = render(scene, camera, reference_settings(settings)).image;
+  settings.tolerance = Tolerance{0};
+  EXPECT_EQ(render(scene, camera, settings).image.rgba, reference.rgba);
+}
+
+TEST(Planner, LeavesWhatIsGiven) {
+  const Scene scene(generate("twisted", {4, 0.3, 3}));
+  const Camera camera = named_view("iso", scene.bounds());
+  RenderSettings settings = settings_of(Mode::volume);
+  settings.order = ScalarOrder::quadratic;
+  settings.integrator = {IntegratorKind::midpoint, 3, {}};
+  settings.early_termination = 0.03;
+  for (const double asked : {0.0, 1e-4}) {
+    settings.tolerance = Tolerance{asked, false, false, false};
+    std::vector<std::string> reasons;
+    const RenderSettings plan = plan_for(scene, camera, settings, reasons);
+    EXPECT_EQ(plan.order, ScalarOrder::quadratic);
+    EXPECT_EQ(plan.integrator.kind, IntegratorKind::midpoint);
+    EXPECT_EQ(plan.integrator.samples, 3);
+    EXPECT_EQ(plan.early_termination, 0.03);
+  }
+}
+
+TEST(Planner, RefusesTolerancesThatAreNone) {
+  const Scene scene(generate("box-tetrahedra", {1, 0, 1}));
+  const Camera camera = named_view("iso", scene.bounds());
+  for (const double wrong : {-1e-3, 1.0, std::nan("")}) {
+    RenderSettings settings = settings_of(Mode::volume);
+    settings.tolerance = Tolerance{wrong};
+    EXPECT_THROW(render(scene, camera, settings), Error) << wrong;
+  }
+  RenderSettings settings = settings_of(Mode::volume);
+  settings.scalar_tolerance = 0;
+  EXPECT_THROW(render(scene, camera, settings), Error);
+}
+
+TEST(Window, IsThatPartOfThePicture) {
+  for (const char* form : {"box-tetrahedra", "twisted", "box-rectilinear"}) {
+    const Scene scene(generate(form, {5, 0.3, 3}));
+    const Camera camera = named_view("iso", scene.bounds());
+    for (const Mode mode : {Mode::volume, Mode::maximum}) {
+      RenderSettings settings = settings_of(mode);
+      const Image whole = render(scene, camera, settings).image;
+      settings.window = PixelWindow{11, 5, 37, 39};
+      const Image part = render(scene, camera, settings).image;
+      ASSERT_EQ(part.width, 37);
+      ASSERT_EQ(part.height, 39);
+      ASSERT_EQ(part.rgba.size(), 4u * 37 * 39);
+      for (int y = 0; y < 39; ++y)
+        for (int x = 0; x < 37; ++x)
+          for (int c = 0; c < 4; ++c)
+            ASSERT_EQ(part.pixel(x, y)[c], whole.pixel(x + 11, y + 5)[c]) << x << ", " << y;
+    }
+    RenderSettings settings = settings_of(Mode::volume);
+    for (const PixelWindow wrong : {PixelWindow{-1, 0, 4, 4}, PixelWindow{0, 0, 65, 4},
+                                    PixelWindow{60, 0, 5, 4}, PixelWindow{0, 0, 0, 4}}) {
+      settings.window = wrong;
+      EXPECT_THROW(render(scene, camera, settings), Error);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plume::test
