@@ -33,9 +33,10 @@ struct IntervalTableSettings {
 /// correction.
 ///
 /// Error: none that is bounded. Whether a scalar lies in an interval is known to one entry, and
-/// what a segment looks like is interpolated across bounds. An isosurface is smeared over one
-/// entry, so that a ray through short segments sees a part of it in several or in none. Measured:
-/// docs/evidence.md.
+/// optical depths are interpolated across bounds: a ray that passes an isosurface sees it once, as
+/// the parts add up, but one that turns back within an entry of it sees a part of it or too much.
+/// An isosurface inside of an interval is not seen where the interval has been seen before.
+/// Measured: docs/evidence.md.
 class IntervalTable {
  public:
   /// Requires !classification.problem(), lowest < highest and 0 < shortest < longest. A shorter
