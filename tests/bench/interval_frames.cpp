@@ -1,6 +1,7 @@
 #include "plume/tests/bench/interval_frames.h"
 
 #include <fmt/format.h>
+#include <tbb/global_control.h>
 
 #include <algorithm>
 #include <cmath>
@@ -130,6 +131,8 @@ bool compare_with_volume_alone(const IntervalFrameOptions& options) {
 }
 
 void compare_ways(const IntervalFrameOptions& options) {
+  // Tables are built on all threads, and only this one's time is taken.
+  const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   const std::optional<Mesh> grid = mesh_sources(Family::hexahedra).front().load();
   if (!grid) return;
   Scene scene(cut_into_tetrahedra(*grid));
