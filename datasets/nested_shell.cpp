@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "plume/datasets/families.h"
 #include "plume/datasets/grid.h"
@@ -19,7 +20,8 @@ double ball(const Point& p, const Point& center, double radius, double width) {
 
 double blend(double a, double b, double t) { return a + (b - a) * t; }
 
-double attenuation(const Point& p) {
+// `width`: half of that of a shell's edges, of the head's radius.
+double attenuation(const Point& p, double width) {
   const double x = (p[0] - 0.5) / 0.34, y = (p[1] - 0.5) / 0.43, z = (p[2] - 0.5) / 0.45;
   // The jaw is narrower than the crown.
   const double narrow = 1 + 0.18 * step(-z, 0.8);
@@ -29,7 +31,6 @@ double attenuation(const Point& p) {
   depth += 0.015 * std::cos(7 * x) * std::cos(9 * y + 1) * std::cos(8 * z);
 
   const double folds = 0.012 * std::sin(34 * p[0]) * std::sin(31 * p[1] + 1) * std::sin(37 * p[2]);
-  const double width = 0.02;
   double value = 0.35 * step(depth, width);
   value += 0.65 * step(depth - 0.09, width);
   value -= 0.75 * step(depth - 0.20, width);
@@ -51,7 +52,9 @@ Mesh nested_shell(const GenerateOptions& options) {
   box.size = size_or(options, 48);
   Mesh mesh = box_tetrahedra(box);
   mesh.fields.clear();
-  add_point_field(mesh, "attenuation", attenuation);
+  // Edges as wide as two cells where that leaves the shells apart, so that the mesh can hold them.
+  const double width = std::clamp(2.5 / box.size, 0.02, 0.04);
+  add_point_field(mesh, "attenuation", [&](const Point& p) { return attenuation(p, width); });
   mesh.active_field = "attenuation";
   return mesh;
 }

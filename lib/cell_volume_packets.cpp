@@ -3,16 +3,16 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "plume/lib/cell_volume_packets.cpp"
 #include "hwy/foreach_target.h"
-#include "plume/lib/volume_consumer-inl.h"
+#include "plume/lib/composite_by-inl.h"
 #include "plume/traverse/cell_steps-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-void CompositeCell(const WalkableCells& mesh, const PieceTable& table, int axis,
-                   float early_termination, PacketFeeder& feeder, std::span<PacketColor> colors) {
-  CompositeBy(table, mesh.cell_values, early_termination, colors,
+void CompositeCell(const WalkableCells& mesh, const PacketOptics& optics, int axis,
+                   PacketFeeder& feeder) {
+  CompositeBy(optics, mesh.cell_values,
               [&](auto& consumer) { Walk(mesh, axis, consumer, feeder); });
 }
 
@@ -25,10 +25,9 @@ namespace plume {
 
 HWY_EXPORT(CompositeCell);
 
-void composite_packets(const WalkableCells& mesh, const PieceTable& table, int axis,
-                       float early_termination, PacketFeeder& feeder,
-                       std::span<PacketColor> colors) {
-  HWY_DYNAMIC_DISPATCH(CompositeCell)(mesh, table, axis, early_termination, feeder, colors);
+void composite_packets(const WalkableCells& mesh, const PacketOptics& optics, int axis,
+                       PacketFeeder& feeder) {
+  HWY_DYNAMIC_DISPATCH(CompositeCell)(mesh, optics, axis, feeder);
 }
 
 }  // namespace plume

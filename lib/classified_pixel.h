@@ -60,7 +60,7 @@ class ClassifiedPixel {
   bool operator()(const Segment& segment) {
     if (segment.t_in - end_ > settings_.gap) state_.reset();
     end_ = segment.t_out;
-    ++cells;
+    cells_(segment);
     const double length = segment.t_out - segment.t_in;
     if (segment.order == ScalarOrder::linear)
       return state_.add(segment.s_in, segment.s_out, [&](const ClassifiedPart& part) {
@@ -86,7 +86,7 @@ class ClassifiedPixel {
   /// The first isosurface or interval that is not transparent.
   SurfaceHit first;
   double optical_depth = 0;  ///< where the whole ray is seen
-  std::uint64_t cells = 0;
+  std::uint64_t cells() const { return cells_.cells; }
   std::uint64_t surfaces = 0;  ///< isosurfaces crossed
   std::uint64_t visits = 0;    ///< to intervals
 
@@ -134,6 +134,7 @@ class ClassifiedPixel {
   const Shade& shade_;
   const ClassifiedPixelSettings settings_;
   IntervalState state_;
+  CellCountPixel cells_;
   double end_ = -std::numeric_limits<double>::infinity();
   Shading visit_;  // of the interval that the ray is in
 };

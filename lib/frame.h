@@ -66,6 +66,10 @@ class Frame {
   const OpticalDepth& optical_depth() const { return optical_depth_; }
   /// Of the linear parts of segments above order 1, in the field's unit.
   double tolerance() const { return tolerance_; }
+  /// Segments farther apart than this, in world units, are in different passages as far as
+  /// intervals and isosurfaces are concerned. Places on the faces of blocks that touch differ by
+  /// rounding, which is some 1e-7 of the mesh.
+  double gap() const { return 1e-6 * scene_.bounds().diagonal(); }
   Image& image() { return image_; }
   std::size_t pixel_count() const {
     return static_cast<std::size_t>(window_.width) * static_cast<std::size_t>(window_.height);

@@ -62,8 +62,7 @@ std::array<double, 8> trilinear_weights(const Vector& parameters) {
 }  // namespace
 
 GradientField::GradientField(const WalkableTets& walkable, std::vector<float> of_points)
-    : values_(reordered(walkable, of_points)) {
-}
+    : values_(reordered(walkable, of_points)) {}
 
 GradientField::GradientField(const WalkableCells& walkable, std::vector<float> of_points)
     : values_(reordered(walkable, of_points)) {}
@@ -90,9 +89,7 @@ void GradientField::put(const WalkableRectilinear&, std::vector<float> of_points
   values_ = std::move(of_points);
 }
 
-std::size_t GradientField::bytes() const {
-  return values_.size() * sizeof(float);
-}
+std::size_t GradientField::bytes() const { return values_.size() * sizeof(float); }
 
 Vector GradientField::weighted(std::span<const std::uint32_t> points,
                                std::span<const double> weights) const {

@@ -17,6 +17,8 @@ bool PacketTile<Walker>::prepare(std::size_t index, const std::optional<Entry>& 
   }
   Crossing place = entry->place;
   if (overlap > 0) place.z = seen_until;
+  if (!visits_.empty() && ray.frame.t(place.z) - ray.frame.t(seen_until) > gap_)
+    visits_[index] = {};
   set_start(ray.start, mesh_, ray.frame, mesh_.boundary[entry->boundary], place, entry->rank,
             static_cast<std::uint32_t>(index));
   ++ray.entries;
@@ -31,7 +33,7 @@ void PacketTile<Walker>::add(const Ray& ray) {
   added.declined = added.waiting = false;
   added.all_entries.list().clear();
   added.valid = added.frame.set(ray, mesh_.frame);
-  added.t_min = ray.t_min;
+  added.ray = ray;
 }
 
 template <class Walker>
@@ -49,7 +51,7 @@ void PacketTile<Walker>::find_first_entries() {
     TileRay& ray = rays_[index];
     const auto entry = ray.all_entries.first();
     if (!entry) continue;
-    if (ray.frame.t(entry->place.z) < ray.t_min)
+    if (ray.frame.t(entry->place.z) < ray.ray.t_min)
       ray.declined = true;
     else
       ray.waiting = prepare(index, entry, entry->place.z);
@@ -89,12 +91,15 @@ class PacketTile<Walker>::Feeder : public PacketFeeder {
 };
 
 template <class Walker>
-void PacketTile<Walker>::composite() {
+void PacketTile<Walker>::composite(PacketOptics optics) {
   colors_.assign(size_, PacketColor{});
+  visits_.assign(optics.classified != nullptr ? size_ : 0, PacketVisit{});
+  optics.colors = colors_;
+  if (optics.classified != nullptr) optics.classified->visits = visits_;
   find_first_entries();
   for (int axis = 0; axis < 3; ++axis) {
     Feeder feeder(*this, axis);
-    composite_packets(mesh_, table_, axis, early_termination_, feeder, colors_);
+    composite_packets(mesh_, optics, axis, feeder);
   }
 }
 

@@ -32,13 +32,18 @@ class PacketTile {
  public:
   using Mesh = typename Walker::Mesh;
 
-  PacketTile(const Mesh& mesh, const BoundaryIndex<Walker>& boundary, const PieceTable& table,
-             float early_termination)
-      : mesh_(mesh), boundary_(boundary), table_(table), early_termination_(early_termination) {}
+  /// Passages farther apart than `gap`, in world units, are different ones for intervals.
+  PacketTile(const Mesh& mesh, const BoundaryIndex<Walker>& boundary, double gap)
+      : mesh_(mesh), boundary_(boundary), gap_(gap) {}
 
   void clear() { size_ = 0; }
   void add(const Ray& ray);
-  void composite();
+  /// What the optics keep of each ray is the tile's.
+  void composite(PacketOptics optics);
+
+  const Ray& ray(std::size_t index) const { return rays_[index].ray; }
+  /// Of a place in the mesh's local frame, along the ray, in world units.
+  double distance(std::size_t index, float z) const { return rays_[index].frame.t(z); }
 
   PacketResult result(std::size_t ray) const {
     return {colors_[ray],
@@ -49,8 +54,8 @@ class PacketTile {
 
  private:
   struct TileRay {
+    Ray ray;
     ShearedFrame frame;
-    double t_min = 0;
     bool valid = false;  // has a direction
     Entries<Walker> all_entries;
     StartOf<Mesh> start;
@@ -65,11 +70,11 @@ class PacketTile {
 
   const Mesh& mesh_;
   const BoundaryIndex<Walker>& boundary_;
-  const PieceTable& table_;
-  const float early_termination_;
+  const double gap_;
   std::vector<TileRay> rays_;  // the first size_ of them: what there is is used again as it is
   std::size_t size_ = 0;
   std::vector<PacketColor> colors_;
+  std::vector<PacketVisit> visits_;  // none for a volume alone
   std::vector<const ShearedFrame*> frames_;
   std::vector<EntryList*> found_;
 };

@@ -1,10 +1,12 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <type_traits>
 #include <variant>
 
+#include "plume/lib/classified_tiles.h"
 #include "plume/lib/packet_tile.h"
 #include "plume/lib/rectilinear_tile.h"
 #include "plume/lib/render_plan.h"
@@ -17,37 +19,56 @@ namespace {
 bool is_endless(const Ray& ray) { return ray.t_max == std::numeric_limits<double>::infinity(); }
 
 template <class Walkable>
+using PacketTileOf = PacketTile<typename Walkable::Walker>;
+
+// Of one thread's tile.
+template <class Walkable>
+class TileLight : public PacketLight {
+ public:
+  TileLight(const SurfaceLight<Walkable>& light, const PacketTileOf<Walkable>& tile)
+      : light_(light), tile_(tile) {}
+
+  Shading at(std::uint32_t ray, float z, float back, std::uint32_t cell) const override {
+    return light_.shading(tile_.ray(ray), tile_.distance(ray, z) - back, cell);
+  }
+
+ private:
+  const SurfaceLight<Walkable>& light_;
+  const PacketTileOf<Walkable>& tile_;
+};
+
+// `Twin` makes the pixels of rays that packets decline.
+template <class Walkable, class Twin>
 class PacketTiles : public TileMaker {
  public:
   PacketTiles(Frame& frame, const Walkable& walkable, const ClosedForm& integrator,
-              const PieceTable& pieces)
-      : frame_(frame), walkable_(walkable), integrator_(integrator), packets_([&] {
-          return PacketTile<typename Walkable::Walker>(
-              walkable.mesh, walkable.boundary, pieces,
-              static_cast<float>(frame.settings().early_termination));
+              const PacketPieces& pieces)
+      : frame_(frame),
+        pieces_(pieces),
+        twin_(frame, walkable, integrator),
+        light_(frame, walkable),
+        packets_([&] {
+          return PacketTileOf<Walkable>(walkable.mesh, walkable.boundary, frame.gap());
         }) {}
 
   void make(const Tile& tile, Counts& counts) override {
     auto& packets = packets_.local();
     packets.clear();
     // Packets walk whole passages: rays that end inside are walked one by one.
-    auto one_by_one = [&](const PixelPlace& pixel) {
-      counts.add(volume_pixel(frame_, walkable_, integrator_, pixel));
-    };
     frame_.for_each_pixel(tile, [&](const PixelPlace& pixel) {
       const Ray ray = frame_.ray(pixel);
       if (is_endless(ray))
         packets.add(ray);
       else
-        one_by_one(pixel);
+        twin_.make_pixel(pixel, counts);
     });
-    packets.composite();
+    composite(packets, counts);
     std::size_t ray = 0;
     frame_.for_each_pixel(tile, [&](const PixelPlace& pixel) {
       if (!is_endless(frame_.ray(pixel))) return;
       const PacketResult result = packets.result(ray++);
       if (result.declined) {
-        one_by_one(pixel);
+        twin_.make_pixel(pixel, counts);
         return;
       }
       counts.add(result.trace);
@@ -61,10 +82,29 @@ class PacketTiles : public TileMaker {
   }
 
  private:
+  void composite(PacketTileOf<Walkable>& packets, Counts& counts) const {
+    PacketOptics optics;
+    optics.early_termination = static_cast<float>(frame_.settings().early_termination);
+    if (const auto* volume = std::get_if<PieceTable>(&pieces_)) {
+      optics.volume = volume;
+      packets.composite(optics);
+      return;
+    }
+    const TileLight<Walkable> light(light_, packets);
+    ClassifiedPackets classified{std::get<ClassifiedPieces>(pieces_), {}};
+    if (light_.is_on()) classified.light = &light;
+    classified.light_intervals = light_.on_intervals();
+    optics.classified = &classified;
+    packets.composite(optics);
+    counts.surfaces += classified.surfaces_crossed;
+    counts.visits += classified.intervals_visited;
+  }
+
   Frame& frame_;
-  const Walkable& walkable_;
-  const ClosedForm& integrator_;
-  tbb::enumerable_thread_specific<PacketTile<typename Walkable::Walker>> packets_;
+  const PacketPieces& pieces_;
+  Twin twin_;
+  const SurfaceLight<Walkable> light_;
+  tbb::enumerable_thread_specific<PacketTileOf<Walkable>> packets_;
 };
 
 }  // namespace
@@ -82,20 +122,34 @@ bool has_packets(const Scene& scene) {
       scene.body().walkable);
 }
 
-bool walked_in_packets(const Frame& frame) {
+std::optional<PacketPieces> pieces_for_packets(const Frame& frame) {
   const RenderSettings& settings = frame.settings();
-  return is_linear(frame.scene(), settings) && has_packets(frame.scene()) &&
-         !is_classified(frame.scene(), settings) && settings.clip_planes.empty() &&
-         !settings.scalar_twin && settings.mode == Mode::volume &&
-         settings.integrator.kind == IntegratorKind::closed_form && settings.channels.empty();
+  const bool served =
+      is_linear(frame.scene(), settings) && has_packets(frame.scene()) &&
+      settings.clip_planes.empty() && !settings.scalar_twin && settings.mode == Mode::volume &&
+      settings.integrator.kind == IntegratorKind::closed_form && settings.channels.empty();
+  if (!served) return std::nullopt;
+  const Classification& classification = frame.scene().classification();
+  if (!is_classified(frame.scene(), settings)) return PieceTable(frame.scene().transfer_function());
+  if (settings.interval_way != IntervalWay::split) return std::nullopt;
+  if (!classification.intervals.empty() && settings.interval_form != IntervalForm::exponential)
+    return std::nullopt;
+  ClassifiedPieces pieces(classification);
+  if (!pieces.in_single_precision()) return std::nullopt;
+  return pieces;
 }
 
 std::unique_ptr<TileMaker> packet_tiles(Frame& frame, const Integrator& integrator,
-                                        const PieceTable& pieces) {
+                                        const PacketPieces& pieces) {
   return std::visit(
       [&](const auto& walkable) -> std::unique_ptr<TileMaker> {
-        return std::make_unique<PacketTiles<std::decay_t<decltype(*walkable)>>>(
-            frame, *walkable, std::get<ClosedForm>(integrator), pieces);
+        using Form = std::decay_t<decltype(*walkable)>;
+        const auto& closed_form = std::get<ClosedForm>(integrator);
+        if (std::holds_alternative<PieceTable>(pieces))
+          return std::make_unique<PacketTiles<Form, VolumeTiles<Form, ClosedForm>>>(
+              frame, *walkable, closed_form, pieces);
+        return std::make_unique<PacketTiles<Form, ClassifiedTiles<Form, ClosedForm>>>(
+            frame, *walkable, closed_form, pieces);
       },
       frame.scene().body().walkable);
 }

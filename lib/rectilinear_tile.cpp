@@ -15,7 +15,9 @@ class PacketTile<RectilinearWalker>::Feeder : public PacketFeeder {
       TileRay& ray = tile_.rays_[at_];
       ray.answer = tile_.lanes_.set(place, ray.ray, static_cast<std::uint32_t>(at_));
       ++at_;
-      if (ray.answer == RectilinearRay::ready) return tile_.lanes_.start(place);
+      if (ray.answer != RectilinearRay::ready) continue;
+      ray.t_in = tile_.lanes_.start(place)->walker->t_in();
+      return tile_.lanes_.start(place);
     }
     return nullptr;
   }
@@ -25,10 +27,13 @@ class PacketTile<RectilinearWalker>::Feeder : public PacketFeeder {
   std::size_t at_ = 0;
 };
 
-void PacketTile<RectilinearWalker>::composite() {
+void PacketTile<RectilinearWalker>::composite(PacketOptics optics) {
   colors_.assign(rays_.size(), PacketColor{});
+  visits_.assign(optics.classified != nullptr ? rays_.size() : 0, PacketVisit{});
+  optics.colors = colors_;
+  if (optics.classified != nullptr) optics.classified->visits = visits_;
   Feeder feeder(*this);
-  composite_packets(mesh_, table_, early_termination_, feeder, colors_);
+  composite_packets(mesh_, optics, feeder);
 }
 
 PacketResult PacketTile<RectilinearWalker>::result(std::size_t ray) const {

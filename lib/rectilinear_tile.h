@@ -18,27 +18,31 @@ template <>
 class PacketTile<RectilinearWalker> {
  public:
   PacketTile(const WalkableRectilinear& mesh, const BoundaryIndex<RectilinearWalker>&,
-             const PieceTable& table, float early_termination)
-      : mesh_(mesh), table_(table), early_termination_(early_termination), lanes_(mesh) {}
+             double /*gap*/)
+      : mesh_(mesh), lanes_(mesh) {}
 
   void clear() { rays_.clear(); }
-  void add(const Ray& ray) { rays_.push_back({ray, RectilinearRay::misses}); }
-  void composite();
+  void add(const Ray& ray) { rays_.push_back({ray}); }
+  void composite(PacketOptics optics);
+
+  const Ray& ray(std::size_t index) const { return rays_[index].ray; }
+  /// Of a place on the ray, `z` from where it comes in.
+  double distance(std::size_t index, float z) const { return rays_[index].t_in + z; }
   PacketResult result(std::size_t ray) const;
 
  private:
   struct TileRay {
     Ray ray;
-    RectilinearRay answer;
+    RectilinearRay answer = RectilinearRay::misses;
+    double t_in = 0;
   };
   class Feeder;
 
   const WalkableRectilinear& mesh_;
-  const PieceTable& table_;
-  const float early_termination_;
   RectilinearLanes lanes_;
   std::vector<TileRay> rays_;
   std::vector<PacketColor> colors_;
+  std::vector<PacketVisit> visits_;
 };
 
 }  // namespace plume

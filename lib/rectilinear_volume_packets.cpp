@@ -3,18 +3,16 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "plume/lib/rectilinear_volume_packets.cpp"
 #include "hwy/foreach_target.h"
-#include "plume/lib/volume_consumer-inl.h"
+#include "plume/lib/composite_by-inl.h"
 #include "plume/traverse/rectilinear_steps-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-void CompositeRectilinear(const WalkableRectilinear& mesh, const PieceTable& table,
-                          float early_termination, PacketFeeder& feeder,
-                          std::span<PacketColor> colors) {
-  CompositeBy(table, mesh.cell_values, early_termination, colors,
-              [&](auto& consumer) { Walk(mesh, consumer, feeder); });
+void CompositeRectilinear(const WalkableRectilinear& mesh, const PacketOptics& optics,
+                          PacketFeeder& feeder) {
+  CompositeBy(optics, mesh.cell_values, [&](auto& consumer) { Walk(mesh, consumer, feeder); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -26,10 +24,9 @@ namespace plume {
 
 HWY_EXPORT(CompositeRectilinear);
 
-void composite_packets(const WalkableRectilinear& mesh, const PieceTable& table,
-                       float early_termination, PacketFeeder& feeder,
-                       std::span<PacketColor> colors) {
-  HWY_DYNAMIC_DISPATCH(CompositeRectilinear)(mesh, table, early_termination, feeder, colors);
+void composite_packets(const WalkableRectilinear& mesh, const PacketOptics& optics,
+                       PacketFeeder& feeder) {
+  HWY_DYNAMIC_DISPATCH(CompositeRectilinear)(mesh, optics, feeder);
 }
 
 }  // namespace plume

@@ -96,20 +96,21 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   plan = describe_plan(scene, effective);
   plan.insert(plan.begin(), reasons.begin(), reasons.end());
   const auto why_walked = no_search(scene, effective);
+  const std::optional<PacketPieces> pieces = pieces_for_packets(frame);
   if (!why_walked)
     plan.push_back(fmt::format(
         "rays: through a hierarchy of cells ({}), as only {}",
         scene.body().hierarchy.made() ? "made before" : "made for this picture",
         is_classified(scene, settings) ? "isosurfaces are to be seen"
                                        : "cells with a greater or lesser scalar need a look"));
-  else if (is_classified(scene, settings) && !scene.classification().isosurfaces.empty())
-    plan.push_back(fmt::format("rays: walked, not through a hierarchy of cells: {}", *why_walked));
   else if (has_packets(scene))
-    plan.push_back(walked_in_packets(frame)
-                       ? fmt::format("rays: in packets, {}", packet_instruction_set())
-                       : "rays: one by one (packets serve the volume mode by the closed form, "
-                         "at order 1, without intervals, isosurfaces, clip planes and further "
-                         "channels)");
+    plan.push_back(
+        pieces ? fmt::format("rays: in packets, {}", packet_instruction_set())
+               : "rays: one by one (packets serve the volume mode by the closed form, "
+                 "at order 1, without tables or the linear form of intervals, clip planes and "
+                 "further channels)");
+  if (why_walked && is_classified(scene, settings) && !scene.classification().isosurfaces.empty())
+    plan.push_back(fmt::format("rays: walked, not through a hierarchy of cells: {}", *why_walked));
   if (settings.mode == Mode::volume) {
     if (frame.channels().whole_rays()) effective.early_termination = 0;
     plan.push_back(frame.channels().whole_rays()
@@ -124,12 +125,14 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   const auto kept = scene.body().integrators.get(scene.transfer_function(), effective.integrator);
   const Integrator& integrator = *kept;
   if (const auto table = describe_table(integrator)) plan.push_back(*table);
-  const PieceTable pieces(scene.transfer_function());
   const bool had_hierarchy = scene.body().hierarchy.made();
-  const auto maker = !why_walked                      ? searched_tiles(frame, integrator)
+  const bool by_table =
+      is_classified(scene, settings) && settings.interval_way == IntervalWay::table;
+  const auto maker = by_table                         ? table_tiles(frame)
+                     : !why_walked                    ? searched_tiles(frame, integrator)
+                     : pieces                         ? packet_tiles(frame, integrator, *pieces)
                      : is_classified(scene, settings) ? classified_tiles(frame, integrator)
                      : settings.mode != Mode::volume  ? mode_tiles(frame)
-                     : walked_in_packets(frame)       ? packet_tiles(frame, integrator, pieces)
                                                       : volume_tiles(frame, integrator);
   result.statistics.hierarchy_made = !had_hierarchy && scene.body().hierarchy.made();
   result.cancelled = make_tiles(frame, *maker, progress, result.statistics);

@@ -15,6 +15,7 @@
 #include "plume/lib/shading.h"
 #include "plume/preint/integrator.h"
 #include "plume/preint/interval_optics.h"
+#include "plume/preint/interval_table.h"
 
 namespace plume {
 
@@ -79,6 +80,10 @@ struct RenderSettings {
   IntegratorSettings integrator;
   /// Of interval volumes; `linear` is there to compare.
   IntervalForm interval_form = IntervalForm::exponential;
+  /// Where rays are cut at the ends of intervals and at isovalues; `table` is there to compare, in
+  /// the mode volume, without light and further channels, always of the exponential form.
+  IntervalWay interval_way = IntervalWay::split;
+  IntervalTableSettings interval_table;
   /// Light on isosurfaces and, where it says so, intervals; none by default. Needs a scene that
   /// keeps gradients (SceneOptions::keep_gradients).
   std::optional<Lighting> lighting;
@@ -133,9 +138,9 @@ struct RenderStatistics {
   std::uint64_t rays_searched = 0;
   /// Whether that hierarchy was made for this picture: once for each scene that needs it.
   bool hierarchy_made = false;
-  std::uint64_t surfaces = 0;         ///< isosurfaces crossed, before rays ended
-  std::uint64_t visits = 0;           ///< to interval volumes, before rays ended
-  double seconds_planning = 0;        ///< spent on finding a plan for a tolerance
+  std::uint64_t surfaces = 0;   ///< isosurfaces crossed, before rays ended
+  std::uint64_t visits = 0;     ///< to interval volumes, before rays ended
+  double seconds_planning = 0;  ///< spent on finding a plan for a tolerance
   /// The order that was taken: the settings', or the plan's.
   ScalarOrder order = ScalarOrder::linear;
   /// What a mode's numbers run from and to, in its channel's unit; nothing in the mode volume and

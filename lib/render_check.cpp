@@ -32,6 +32,29 @@ void check_channels(const Scene& scene, const RenderSettings& settings) {
                             settings.lighting ? "light:" : "channel 'normal':"));
 }
 
+// A way that is there to compare does no more than that needs.
+void check_interval_way(const Scene& scene, const RenderSettings& settings) {
+  if (settings.interval_way == IntervalWay::split || !is_classified(scene, settings)) return;
+  const char* const what = settings.mode != Mode::volume ? "the mode depth"
+                           : settings.lighting           ? "light"
+                           : !settings.channels.empty()  ? "further channels"
+                           : settings.interval_form == IntervalForm::linear
+                               ? "the linear form of intervals"
+                               : nullptr;
+  if (what != nullptr)
+    throw Error(
+        fmt::format("intervals from tables have no {}; leave it out, or split them in data "
+                    "space, as is done by default",
+                    what));
+  const IntervalTableSettings& table = settings.interval_table;
+  if (table.scalar_count < 2 || table.length_count < 2 || table.scalar_count > 1024 ||
+      table.length_count > 256)
+    throw Error(
+        fmt::format("a table of intervals of {0} x {0} scalars and {1} lengths: 2 to 1024 and "
+                    "2 to 256",
+                    table.scalar_count, table.length_count));
+}
+
 void check_window(const PixelWindow& window, const RenderSettings& settings) {
   const bool inside = window.x >= 0 && window.y >= 0 && window.width >= 1 && window.height >= 1 &&
                       window.width <= settings.width - window.x &&
@@ -80,6 +103,7 @@ void check_settings(const Scene& scene, const RenderSettings& settings) {
                             settings.depth_limit.size(), pixels));
   if (settings.window) check_window(*settings.window, settings);
   check_channels(scene, settings);
+  check_interval_way(scene, settings);
   if (settings.lighting)
     if (const auto problem = settings.lighting->problem())
       throw Error(fmt::format("light: {}", *problem));

@@ -45,7 +45,8 @@ void describe_surfaces(const Scene& scene, const RenderSettings& settings,
     for (const IntervalVolume& interval : classification.intervals)
       ranges.push_back(fmt::format("[{:g}, {:g}]", interval.low, interval.high));
     plan.push_back(fmt::format(
-        "intervals: {}, split in data space, monotone along each ray, {}", fmt::join(ranges, " "),
+        "intervals: {}, {}, monotone along each ray, {}", fmt::join(ranges, " "),
+        settings.interval_way == IntervalWay::split ? "split in data space" : "from tables",
         settings.interval_form == IntervalForm::exponential ? "exponential" : "linear"));
   }
   if (!classification.isosurfaces.empty()) {
@@ -53,7 +54,8 @@ void describe_surfaces(const Scene& scene, const RenderSettings& settings,
     for (const Isosurface& surface : classification.isosurfaces)
       values.push_back(fmt::format("{:g}", surface.value));
     plan.push_back(fmt::format("isosurfaces: {}, {}", fmt::join(values, " "),
-                               is_linear(scene, settings)
+                               settings.interval_way == IntervalWay::table ? "from tables"
+                               : is_linear(scene, settings)
                                    ? "in closed form"
                                    : "by isolated roots of each cell's polynomial"));
   }

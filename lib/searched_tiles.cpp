@@ -38,7 +38,7 @@ class SearchedTiles : public TileMaker {
         walkable_(walkable),
         pixels_(frame, walkable, integrator),
         isovalues_(sought_isovalues(frame.scene().classification())),
-        connected_(kGap * frame.scene().bounds().diagonal()),
+        connected_(frame.gap()),
         bundles_([&] { return TileBundles(walkable.mesh, hierarchy); }) {}
 
   void make(const Tile& tile, Counts& counts) override {
@@ -143,6 +143,7 @@ std::optional<std::string> no_search(const Scene& scene, const RenderSettings& s
   if (!settings.clip_planes.empty()) return "clip planes cut rays";
   if (scene.surface_triangle_count() > 0 || !settings.depth_limit.empty())
     return "rays end at what is opaque";
+  if (settings.interval_way == IntervalWay::table) return "the interval tables are asked for";
   if (settings.scalar_twin) return "the scalar twin is asked for";
   const auto& channels = settings.channels;
   for (const char* name : {"optical_depth", "cell_count"})

@@ -4,8 +4,10 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "plume/lib/frame.h"
+#include "plume/preint/classified_pieces.h"
 #include "plume/preint/integrator.h"
 #include "plume/preint/piece_table.h"
 
@@ -23,10 +25,17 @@ class TileMaker {
 /// Mode volume of a scene that shows a volume alone, ray by ray.
 std::unique_ptr<TileMaker> volume_tiles(Frame& frame, const Integrator& integrator);
 
-/// The same by packets of rays; those that packets decline are left to volume_tiles(). Requires
-/// walked_in_packets(frame).
+/// What packets composite, cut into pieces: of a volume alone, or of a whole classification.
+using PacketPieces = std::variant<PieceTable, ClassifiedPieces>;
+
+/// The pieces with which packets can render this frame, or nothing where they cannot: they serve
+/// the mode volume, linear segments, the closed form, the exponential form of intervals, no clip
+/// planes and no further channels.
+std::optional<PacketPieces> pieces_for_packets(const Frame& frame);
+
+/// Either by packets of rays; those that packets decline are left to the other makers' code.
 std::unique_ptr<TileMaker> packet_tiles(Frame& frame, const Integrator& integrator,
-                                        const PieceTable& pieces);
+                                        const PacketPieces& pieces);
 
 /// Scenes with intervals or isosurfaces, in the modes volume and depth.
 std::unique_ptr<TileMaker> classified_tiles(Frame& frame, const Integrator& integrator);
@@ -40,14 +49,13 @@ std::unique_ptr<TileMaker> searched_tiles(Frame& frame, const Integrator& integr
 /// Why a picture is not made through a hierarchy of cells; nothing where it is.
 std::optional<std::string> no_search(const Scene& scene, const RenderSettings& settings);
 
+/// Scenes with intervals or isosurfaces in the mode volume, by IntervalWay::table.
+std::unique_ptr<TileMaker> table_tiles(Frame& frame);
+
 /// The modes that show one number a ray.
 std::unique_ptr<TileMaker> mode_tiles(Frame& frame);
 
 /// Whether there are packets for what the scene is walked as.
 bool has_packets(const Scene& scene);
-
-/// Whether packets can render this frame: linear segments, nothing but a volume, whole rays, closed
-/// form, no further channels.
-bool walked_in_packets(const Frame& frame);
 
 }  // namespace plume

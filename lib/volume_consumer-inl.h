@@ -1,5 +1,5 @@
-// What compositing does with the segments of packets (see PacketWalk). Compiled once for each
-// instruction set: to be included after hwy/foreach_target.h alone.
+// What compositing a volume does with the segments of packets (see PacketWalk). Compiled once for
+// each instruction set: to be included after hwy/foreach_target.h alone.
 
 // clang-format off
 #if defined(PLUME_LIB_VOLUME_CONSUMER_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -10,12 +10,9 @@
 #endif
 // clang-format on
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <type_traits>
-#include <vector>
 
 #include "hwy/highway.h"
 #include "plume/lib/volume_packets.h"
@@ -25,28 +22,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
-
-// A table of any size, its pieces fetched like the points.
-class FetchedTable {
- public:
-  explicit FetchedTable(const PieceTable& table) : first_(&table.pieces.data()->low) {
-    static_assert(sizeof(PieceTable::Piece) == 12 * sizeof(float));
-  }
-  HWY_INLINE optics::Record range(VU piece) const { return four(0, piece); }
-  HWY_INLINE optics::Record color(VU piece) const { return four(1, piece); }
-  HWY_INLINE optics::Record color_slope(VU piece) const { return four(2, piece); }
-
- private:
-  HWY_INLINE optics::Record four(std::uint32_t which, VU piece) const {
-    const DU du;
-    HWY_ALIGN std::uint32_t pairs[kMaxLanes];
-    hn::Store(hn::Add(hn::Mul(piece, hn::Set(du, 6)), hn::Set(du, 2 * which)), du, pairs);
-    const FourFloats values = LoadFour(first_, pairs);
-    return {values.a, values.b, values.c, values.d};
-  }
-
-  const float* first_;
-};
 
 template <class Pieces>
 struct VolumeConsumer {
@@ -106,23 +81,6 @@ struct VolumeConsumer {
              transmittance <= enough};
   }
 };
-
-// Composites by walk(consumer), with the consumer that fits the table.
-template <class Walk>
-void CompositeBy(const PieceTable& table, const std::vector<float>& cell_values,
-                 float early_termination, std::span<PacketColor> colors, const Walk& walk) {
-  auto composite = [&](const auto& pieces) {
-    // Behind a transmittance of 1e-9 nothing changes a float between 0 and 1.
-    VolumeConsumer<std::decay_t<decltype(pieces)>> consumer{
-        table, pieces, cell_values.empty() ? nullptr : cell_values.data(),
-        std::max(early_termination, 1e-9f), colors};
-    walk(consumer);
-  };
-#if HWY_TARGET != HWY_SCALAR
-  if (optics::SmallTable::fits(table)) return composite(optics::SmallTable(table));
-#endif
-  composite(FetchedTable(table));
-}
 
 }  // namespace HWY_NAMESPACE
 }  // namespace plume

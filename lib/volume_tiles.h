@@ -6,19 +6,7 @@
 
 namespace plume {
 
-/// A pixel of the mode volume.
-template <class Walkable, class Integrator>
-TraceResult volume_pixel(Frame& frame, const Walkable& walkable, const Integrator& integrator,
-                         const PixelPlace& place) {
-  VolumePixel<Integrator> pixel{integrator, static_cast<float>(frame.settings().early_termination),
-                                frame.tolerance()};
-  const TraceResult result = follow_ray(frame, walkable, place, pixel);
-  float* rgba = frame.rgba(place);
-  for (std::size_t c = 0; c < 3; ++c) rgba[c] = static_cast<float>(pixel.compositor.rgb[c]);
-  rgba[3] = static_cast<float>(pixel.compositor.alpha());
-  return result;
-}
-
+/// The mode volume of a scene that shows a volume alone.
 template <class Walkable, class Integrator>
 class VolumeTiles : public TileMaker {
  public:
@@ -26,9 +14,16 @@ class VolumeTiles : public TileMaker {
       : frame_(frame), walkable_(walkable), integrator_(integrator) {}
 
   void make(const Tile& tile, Counts& counts) override {
-    frame_.for_each_pixel(tile, [&](const PixelPlace& pixel) {
-      counts.add(volume_pixel(frame_, walkable_, integrator_, pixel));
-    });
+    frame_.for_each_pixel(tile, [&](const PixelPlace& pixel) { make_pixel(pixel, counts); });
+  }
+
+  void make_pixel(const PixelPlace& place, Counts& counts) {
+    VolumePixel<Integrator> pixel{
+        integrator_, static_cast<float>(frame_.settings().early_termination), frame_.tolerance()};
+    counts.add(follow_ray(frame_, walkable_, place, pixel));
+    float* rgba = frame_.rgba(place);
+    for (std::size_t c = 0; c < 3; ++c) rgba[c] = static_cast<float>(pixel.compositor.rgb[c]);
+    rgba[3] = static_cast<float>(pixel.compositor.alpha());
   }
 
  private:

@@ -65,13 +65,25 @@ std::optional<std::string> Classification::problem() const {
   for (const IntervalVolume& interval : intervals) ascending.push_back(&interval);
   std::sort(ascending.begin(), ascending.end(), [](auto a, auto b) { return a->low < b->low; });
   for (std::size_t i = 1; i < ascending.size(); ++i) {
-    const double low = ascending[i]->low, before = ascending[i - 1]->high;
-    if (low < before)
+    const double low = ascending[i]->low, high = ascending[i]->high;
+    const double low_before = ascending[i - 1]->low, before = ascending[i - 1]->high;
+    if (!(low < before)) continue;
+    if (low_before == low || high <= before) {
+      // Of two that begin together the longer one comes first or second.
+      const bool first_is_outer = before >= high;
+      const double outer_low = first_is_outer ? low_before : low;
+      const double outer_high = first_is_outer ? before : high;
+      const double inner_low = first_is_outer ? low : low_before;
+      const double inner_high = first_is_outer ? high : before;
       return line(
-          "the intervals [%g, %g] and [%g, %g] overlap; end the first at %g or start the second at "
-          "%g",
-          static_cast<double>(ascending[i - 1]->low), before, low,
-          static_cast<double>(ascending[i]->high), low, before);
+          "the interval [%g, %g] is nested in [%g, %g]; leave the inner one out, or cut the outer "
+          "one at %g and %g",
+          inner_low, inner_high, outer_low, outer_high, inner_low, inner_high);
+    }
+    return line(
+        "the intervals [%g, %g] and [%g, %g] overlap; end the first at %g or start the second at "
+        "%g",
+        low_before, before, low, high, low, before);
   }
   std::vector<float> values;
   for (const Isosurface& surface : isosurfaces) values.push_back(surface.value);

@@ -24,7 +24,9 @@
 #endif
 // clang-format on
 
+#include <cstddef>
 #include <limits>
+#include <vector>
 
 #include "hwy/highway.h"
 #include "plume/preint/piece_table.h"
@@ -90,32 +92,47 @@ struct Record {
 };
 
 #if HWY_TARGET != HWY_SCALAR
-// A table of as many pieces as there are lanes, or fewer: entries are permuted, not fetched.
-class SmallTable {
+// A table of no more than kMost pieces: entries are permuted, not fetched. As many pieces as there
+// are lanes need one permutation an entry, twice as many two.
+template <class Piece, std::size_t kParts>
+class PermutedTable {
  public:
-  static bool fits(const PieceTable& table) { return table.pieces.size() <= hn::Lanes(DF()); }
+  static constexpr std::size_t kFloats = sizeof(Piece) / sizeof(float);
+  static constexpr std::size_t kMost = kParts * hn::MaxLanes(DF());
+  static_assert(sizeof(Piece) == kFloats * sizeof(float) && kFloats % 4 == 0);
+  static_assert(kParts == 1 || kParts == 2);
 
-  explicit SmallTable(const PieceTable& table) {
-    static_assert(sizeof(PieceTable::Piece) == 12 * sizeof(float));
-    for (std::size_t i = 0; i < 16; ++i) {
-      const auto& piece = table.pieces[i < table.pieces.size() ? i : 0];
-      const float* const from = &piece.low;
-      for (std::size_t f = 0; f < 12; ++f) values_[f][i] = from[f];
+  static bool fits(const std::vector<Piece>& pieces) {
+    return hn::Lanes(DF()) == hn::MaxLanes(DF()) && pieces.size() <= kMost;
+  }
+
+  explicit PermutedTable(const std::vector<Piece>& pieces) {
+    for (std::size_t i = 0; i < kMost; ++i) {
+      const float* const from = &pieces[i < pieces.size() ? i : 0].low;
+      for (std::size_t f = 0; f < kFloats; ++f) values_[f][i] = from[f];
     }
   }
-  HWY_INLINE Record range(VU piece) const { return four(0, piece); }
-  HWY_INLINE Record color(VU piece) const { return four(4, piece); }
-  HWY_INLINE Record color_slope(VU piece) const { return four(8, piece); }
-
- private:
-  HWY_INLINE Record four(std::size_t first, VU piece) const {
-    const DF d;
-    const auto lane = hn::IndicesFromVec(d, piece);
-    auto entry = [&](std::size_t f) { return hn::TableLookupLanes(hn::Load(d, values_[f]), lane); };
-    return {entry(first), entry(first + 1), entry(first + 2), entry(first + 3)};
+  template <std::size_t kGroup>
+  HWY_INLINE Record four(VU piece) const {
+    constexpr std::size_t kFirst = 4 * kGroup;
+    return {entry(kFirst, piece), entry(kFirst + 1, piece), entry(kFirst + 2, piece),
+            entry(kFirst + 3, piece)};
   }
 
-  HWY_ALIGN float values_[12][16];
+ private:
+  HWY_INLINE VF entry(std::size_t f, VU piece) const {
+    const DF d;
+    const DU du;
+    constexpr std::size_t kLanes = hn::MaxLanes(DF());
+    if constexpr (kParts == 1)
+      return hn::TableLookupLanes(hn::Load(d, values_[f]), hn::IndicesFromVec(d, piece));
+    const auto lane = hn::IndicesFromVec(d, hn::And(piece, hn::Set(du, kLanes - 1)));
+    const MF upper = hn::RebindMask(d, hn::Gt(piece, hn::Set(du, kLanes - 1)));
+    return hn::IfThenElse(upper, hn::TableLookupLanes(hn::Load(d, values_[f] + kLanes), lane),
+                          hn::TableLookupLanes(hn::Load(d, values_[f]), lane));
+  }
+
+  HWY_ALIGN float values_[kFloats][kMost];
 };
 #endif
 
@@ -129,8 +146,8 @@ HWY_INLINE VF AnchorOf(const Record& range) {
 
 // Composites one segment a lane: the scalar runs linearly from s_in to s_out, `length` >= 0 in
 // world units. `piece` is that of the last segment's end, or any; it is left at this one's. Lanes
-// that are not active, or have a NaN, keep their sums. `pieces` is the table: SmallTable, or one
-// that fetches from memory (how that is done best is known to who walks).
+// that are not active, or have a NaN, keep their sums. `pieces` is the table: PermutedTable, or
+// one that fetches from memory (how that is done best is known to who walks).
 template <class Table>
 HWY_INLINE void Composite(const Table& pieces, MF active, VF s_in, VF s_out, VF length, VU& piece,
                           Sums& sums) {
@@ -140,7 +157,8 @@ HWY_INLINE void Composite(const Table& pieces, MF active, VF s_in, VF s_out, VF 
   const VF half = hn::Set(d, 0.5f);
   const VF one = hn::Set(d, 1.0f);
   const VU one_piece = hn::Set(du, 1);
-  active = hn::And(active, hn::And(hn::Eq(s_in, s_in), hn::Eq(s_out, s_out)));
+  const VF most = hn::Set(d, std::numeric_limits<float>::max());
+  active = hn::And(active, hn::And(hn::Le(hn::Abs(s_in), most), hn::Le(hn::Abs(s_out), most)));
   active = hn::And(active, hn::Gt(length, zero));
   // Zero times what is not a number is none: nothing of such lanes may get into a sum.
   s_in = hn::IfThenElseZero(active, s_in);
@@ -151,7 +169,7 @@ HWY_INLINE void Composite(const Table& pieces, MF active, VF s_in, VF s_out, VF 
   // The piece that the segment begins in: mostly where the last one ended.
   Record range;
   for (;;) {
-    range = pieces.range(piece);
+    range = pieces.template four<0>(piece);
     const VF lower = range.a, upper = range.b;
     const MF above =
         hn::And(active, hn::Or(hn::Gt(s_in, upper), hn::And(rising, hn::Eq(s_in, upper))));
@@ -165,8 +183,7 @@ HWY_INLINE void Composite(const Table& pieces, MF active, VF s_in, VF s_out, VF 
   // Scalars are taken from the piece's anchor on: rounding then is a share of the piece, however
   // narrow it is, and no place in it is lost where the ray's part in it is cut.
   const VF way = hn::Abs(hn::Sub(s_out, s_in));
-  const VF largest = hn::Set(d, std::numeric_limits<float>::max());
-  const VF per_scalar = hn::Min(largest, hn::Div(length, way));
+  const VF per_scalar = hn::Min(most, hn::Div(length, way));
   VF anchor = AnchorOf(range);
   VF offset = hn::Sub(s_in, anchor);
   VF bound = hn::IfThenElse(rising, range.b, range.a);
@@ -202,8 +219,8 @@ HWY_INLINE void Composite(const Table& pieces, MF active, VF s_in, VF s_out, VF 
     // colour is fetched.
     const MF seen = hn::And(active, hn::Gt(mean, zero));
     if (!hn::AllFalse(d, seen)) {
-      const Record color = pieces.color(piece);
-      const Record color_slope = pieces.color_slope(piece);
+      const Record color = pieces.template four<1>(piece);
+      const Record color_slope = pieces.template four<2>(piece);
       const VF weight = hn::Mul(sums.transmittance, Absorbed(mean));
       const VF turn =
           hn::Mul(hn::Mul(sums.transmittance, Chi(mean, difference)), hn::Sub(next, offset));
@@ -226,7 +243,7 @@ HWY_INLINE void Composite(const Table& pieces, MF active, VF s_in, VF s_out, VF 
     const MF moves = hn::AndNot(deep, active);
     const VU stride = hn::IfThenElse(hn::RebindMask(du, rising), one_piece, hn::Set(du, ~0u));
     piece = hn::Add(piece, hn::IfThenElseZero(hn::RebindMask(du, moves), stride));
-    range = pieces.range(piece);
+    range = pieces.template four<0>(piece);
     anchor = AnchorOf(range);
     offset = hn::IfThenElse(moves, hn::Sub(bound, anchor), next);
     const VF begin = bound;

@@ -169,6 +169,7 @@ HWY_INLINE unsigned BitsOf(MF mask) {
 //     begin(packet, lane, start);
 //     MF visit(packet, active, length, s_in, s_out, cells): all lanes at once, for each step; those
 //     returned have seen enough. Lengths are in world units and >= 0 (see trace.h);
+//     ends_at(packet, z), where there is one, before it: where those segments end;
 //     end(packet, lane, start, z, cells): z is where the ray was last, cells how many it met.
 // Without Consumer::kMeasure there is no visit(), and z means nothing.
 //
@@ -240,6 +241,8 @@ class PacketWalk {
       const MF onwards = hn::Gt(along, hn::Zero(d));
       const VF length = hn::IfThenElseZero(onwards, along);
       packet.z_in = hn::IfThenElse(onwards, step.z, packet.z_in);
+      if constexpr (requires { consumer_.ends_at(place, packet.z_in); })
+        consumer_.ends_at(place, packet.z_in);
       const MF active = hn::RebindMask(d, hn::Ne(hn::Load(du, state.active), hn::Zero(du)));
       ended = hn::Or(ended, consumer_.visit(place, active, length, packet.s_in, step.s, cells));
       packet.s_in = step.s;

@@ -111,6 +111,10 @@ void add_render_options(CLI::App& command, RenderArguments& args) {
                   "Opacity of intervals: exponential or linear (exponential)")
       ->check(CLI::IsMember(names_of(kIntervalForms)));
   command
+      .add_option("--interval-way", args.interval_way,
+                  "Intervals and isosurfaces: split, in data space, or table, to compare (split)")
+      ->check(CLI::IsMember(names_of(kIntervalWays)));
+  command
       .add_option("--mode", args.mode,
                   "volume; one number a ray: mip, minip, average, integral, optical-depth, depth "
                   "or cells (volume)")

@@ -17,6 +17,7 @@ struct RenderArguments {
   std::string view = "iso", camera, transfer_function, transfer_range, mode = "volume";
   std::string integrator, order, cell_data = "constant", background = "white", stats;
   std::string interval_form = "exponential";
+  std::string interval_way = "split";
   std::vector<std::string> channels, isosurfaces, intervals, lights, clip_planes, surfaces, walls;
   std::string material, clip_box, time, gray_range;
   double azimuth = 0, elevation = 0, zoom = 1, opacity_scale = 1, view_angle = 0;
@@ -38,6 +39,8 @@ inline const std::vector<std::pair<std::string, CellData>> kCellData{
     {"constant", CellData::constant}, {"averaged", CellData::averaged}};
 inline const std::vector<std::pair<std::string, IntervalForm>> kIntervalForms{
     {"exponential", IntervalForm::exponential}, {"linear", IntervalForm::linear}};
+inline const std::vector<std::pair<std::string, IntervalWay>> kIntervalWays{
+    {"split", IntervalWay::split}, {"table", IntervalWay::table}};
 inline const std::vector<std::pair<std::string, ScalarOrder>> kOrders{
     {"1", ScalarOrder::linear},
     {"2", ScalarOrder::quadratic},

@@ -25,6 +25,7 @@ RenderSettings choose_settings(const RenderArguments& args) {
   if (!args.integrator.empty()) settings.integrator.kind = chosen(kIntegrators, args.integrator);
   settings.integrator.samples = args.samples;
   settings.interval_form = chosen(kIntervalForms, args.interval_form);
+  settings.interval_way = chosen(kIntervalWays, args.interval_way);
   if (!args.order.empty()) settings.order = chosen(kOrders, args.order);
   if (args.early_termination) settings.early_termination = *args.early_termination;
   if (args.tolerance)

@@ -7,6 +7,7 @@
 #include "plume/mesh/error.h"
 #include "plume/tests/bench/hexahedra_frames.h"
 #include "plume/tests/bench/hierarchy_frames.h"
+#include "plume/tests/bench/interval_frames.h"
 #include "plume/tests/bench/peer_frames.h"
 #include "plume/tests/bench/thread_scaling.h"
 #include "plume/tests/bench/tolerance_frames.h"
@@ -19,10 +20,12 @@ constexpr const char* kHelp = R"(plume_frame_bench: whole frames, from the rays 
   --threads        two threads against one
   --hexahedra      the blunt fin as hexahedra against tetrahedra; orders 1, 2 and 3; beside the
                    thesis' frames
-                   all where none is asked for
+  --intervals      two intervals and an isosurface added to a volume against the volume alone;
+                   split in data space against the paper's tables
   --tolerance      what is asked for, what the planner chooses, and what that comes to, in all modes
   --hierarchy      an opaque isosurface through the hierarchy of cells against walking to it, of
                    10 million tetrahedra: only where it is asked for
+                   all but that where none is asked for
   --rounds=N       how many frames each (5, with two threads 7); medians are reported
   --cells=N        of the hierarchy's box, along each side (118)
   --size=N         pixels along each side (512, with two threads 1024)
@@ -40,7 +43,8 @@ bool take(const std::string& argument, const std::string& name, int& value) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  bool peers = false, threads = false, hexahedra = false, tolerance = false, hierarchy = false;
+  bool peers = false, threads = false, hexahedra = false, intervals = false, tolerance = false;
+  bool hierarchy = false;
   int rounds = 0, size = 0, cells = 0;
   std::string pictures;
   for (int i = 1; i < argc; ++i) {
@@ -53,6 +57,8 @@ int main(int argc, char** argv) {
       hexahedra = true;
     else if (argument == "--hierarchy")
       hierarchy = true;
+    else if (argument == "--intervals")
+      intervals = true;
     else if (argument == "--tolerance")
       tolerance = true;
     else if (argument.rfind("--pictures=", 0) == 0)
@@ -63,18 +69,21 @@ int main(int argc, char** argv) {
       return argument == "--help" ? 0 : 2;
     }
   }
-  if (!peers && !threads && !hexahedra && !tolerance && !hierarchy)
-    peers = threads = hexahedra = tolerance = true;
+  if (!peers && !threads && !hexahedra && !intervals && !tolerance && !hierarchy)
+    peers = threads = hexahedra = intervals = tolerance = true;
   plume::bench::PeerFrameOptions peer_options;
   plume::bench::HexahedraFrameOptions hexahedra_options;
+  plume::bench::IntervalFrameOptions interval_options;
   plume::bench::ThreadScalingOptions thread_options;
   plume::bench::HierarchyFrameOptions hierarchy_options;
   peer_options.pictures = pictures;
-  if (rounds > 0) hierarchy_options.rounds = rounds;
-  if (size > 0) hierarchy_options.size = size;
+  if (rounds > 0)
+    peer_options.rounds = thread_options.rounds = hexahedra_options.rounds =
+        interval_options.rounds = hierarchy_options.rounds = rounds;
+  if (size > 0)
+    peer_options.size = thread_options.size = hexahedra_options.size = interval_options.size =
+        hierarchy_options.size = size;
   if (cells > 0) hierarchy_options.cells = cells;
-  if (rounds > 0) peer_options.rounds = thread_options.rounds = hexahedra_options.rounds = rounds;
-  if (size > 0) peer_options.size = thread_options.size = hexahedra_options.size = size;
   try {
     bool good = true;
     if (peers) good = plume::bench::compare_peer_frames(peer_options) && good;
@@ -85,6 +94,10 @@ int main(int argc, char** argv) {
       plume::bench::compare_with_thesis_frames(hexahedra_options);
     }
     if (hierarchy) good = plume::bench::compare_isosurfaces(hierarchy_options) && good;
+    if (intervals) {
+      good = plume::bench::compare_with_volume_alone(interval_options) && good;
+      plume::bench::compare_ways(interval_options);
+    }
     if (tolerance)
       good = plume::bench::check_tolerances(size > 0 ? size : 256, rounds > 0 ? rounds : 3) && good;
     return good ? 0 : 1;

@@ -95,7 +95,7 @@ void walk_form(const Form& form, const BenchOptics& optics, const BenchView& vie
     assert(mode == Mode::closed_form);
     std::vector<PacketColor> colors(sums.size());
     for_each_axis([&](int axis, PassageFeeder<Form>& feeder) {
-      composite_packets(form, optics.pieces, axis, 0, feeder, colors);
+      composite_packets(form, {&optics.pieces, nullptr, 0, colors}, axis, feeder);
     });
     for (std::size_t i = 0; i < sums.size(); ++i)
       sums[i] = {colors[i].cells, colors[i].transmittance, colors[i].r + colors[i].g + colors[i].b};

@@ -168,6 +168,7 @@ done
 ok "a negative isovalue" "$plume" render box.vtu --iso -0.25 -o s.png --size 20x20
 cp err.txt said.txt
 ok "outside of the range is said" grep -q -- "--iso -0.25 is outside of 'radius'" said.txt
+ok "the paper's tables" "$plume" render box.vtu --interval 0.2,0.4 --interval-way table -o s.png --size 20x20 --quiet
 ok "the linear form" "$plume" render box.vtu --interval 0.2,0.4 --interval-form linear -o s.png --size 20x20 --quiet
 ok "light on averaged cell data" "$plume" render box.vtu --field cell_radius --cell-data averaged --iso 0.4 --light head \
   -o s.png --size 20x20 --quiet
@@ -180,6 +181,9 @@ refused "a colour above 1" 1 "--interval '0,1:1:0,0,9'|9|0 to 1" "$plume" render
 refused "an interval of one number" 1 "--interval '0.5'|LOW,HIGH" "$plume" render box.vtu --interval 0.5 -o x.png
 refused "an interval of no width" 1 "[0.5, 0.5]|isosurface" "$plume" render box.vtu --interval 0.5,0.5 -o x.png
 refused "an interval from high to low" 1 "[0.5, 0.2]|[0.2, 0.5]" "$plume" render box.vtu --interval 0.5,0.2 -o x.png
+refused "an interval in another" 1 "[0.1, 0.2]|nested in [0, 0.5]" "$plume" render box.vtu --interval 0,0.5 --interval 0.1,0.2 -o x.png
+refused "light by the paper's tables" 1 "from tables have no light" "$plume" render box.vtu --interval 0,0.5 --interval-way table \
+  --light head -o x.png
 refused "intervals that overlap" 1 "[0, 0.5]|[0.4, 0.6]|overlap" "$plume" render box.vtu --interval 0,0.5 --interval 0.4,0.6 -o x.png
 refused "the same isovalue twice" 1 "two isosurfaces at 0.5" "$plume" render box.vtu --iso 0.5 --iso 0.5 -o x.png
 refused "nothing to see" 1 "--no-volume|--iso" "$plume" render box.vtu --no-volume -o x.png

@@ -201,7 +201,9 @@ TEST_P(Packets, SeeThroughWhatIsNotANumber) {
   for (std::size_t i = 0; i < mesh.point_count(); ++i) {
     const float x = mesh.is_rectilinear() ? static_cast<float>(mesh.axes[0].at<double>(i % row))
                                           : mesh.points.at<float>(3 * i);
-    values.push_back(i % 7 == 0 ? std::numeric_limits<float>::quiet_NaN() : x);
+    values.push_back(i % 7 == 0    ? std::numeric_limits<float>::quiet_NaN()
+                     : i % 31 == 0 ? std::numeric_limits<float>::infinity()
+                                   : x);
   }
   mesh.fields = {{"holes", Association::point, 1, Array::own(std::move(values))}};
   const Scene scene(mesh);

@@ -39,7 +39,9 @@ TEST(Classification, names_values_and_remedy) {
   expect_problem({{}, {{0, 0.5f, kProfile}, {0.25f, 1, kProfile}}, {}},
                  {"[0, 0.5]", "[0.25, 1]", "overlap", "end the first at 0.25"});
   expect_problem({{}, {{0.25f, 0.5f, kProfile}, {0, 1, kProfile}}, {}},
-                 {"[0.25, 0.5]", "[0, 1]", "overlap"});
+                 {"[0.25, 0.5]", "nested in [0, 1]", "cut the outer one at 0.25 and 0.5"});
+  expect_problem({{}, {{0, 1, kProfile}, {0, 2, kProfile}}, {}}, {"[0, 1]", "nested in [0, 2]"});
+  expect_problem({{}, {{0, 2, kProfile}, {1, 2, kProfile}}, {}}, {"[1, 2]", "nested in [0, 2]"});
   expect_problem({{}, {{0.5f, 0.5f, kProfile}}, {}}, {"0.5", "no width", "isosurface"});
   expect_problem({{}, {{2, 1, kProfile}}, {}}, {"[2, 1]", "write [1, 2]"});
   expect_problem({{}, {{0, kNaN, kProfile}}, {}}, {"nan", "finite"});
