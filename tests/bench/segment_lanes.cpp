@@ -6,7 +6,7 @@
 #include "hwy/foreach_target.h"  // before all that is compiled for each instruction set
 #include "hwy/contrib/math/math-inl.h"
 // clang-format on
-#include "plume/lib/volume_consumer-inl.h"
+#include "plume/lib/composite_by-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plume {
@@ -52,11 +52,8 @@ void ClosedFormBy(const Pieces& pieces, const PieceTable& table,
 
 void ClosedFormLanes(const PieceTable& table, const bench::LaneSegments& segments,
                      bench::LaneColors& colors) {
-#if HWY_TARGET != HWY_SCALAR
-  if (optics::SmallTable::fits(table))
-    return ClosedFormBy(optics::SmallTable(table), table, segments, colors);
-#endif
-  ClosedFormBy(FetchedTable(table), table, segments, colors);
+  WithTable(table.pieces,
+            [&](const auto& pieces) { ClosedFormBy(pieces, table, segments, colors); });
 }
 
 void TableLanes(const PreintegratedTable& table, const bench::LaneSegments& segments,

