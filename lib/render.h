@@ -15,7 +15,7 @@
 #include "plume/lib/shading.h"
 #include "plume/preint/integrator.h"
 #include "plume/preint/interval_optics.h"
-#include "plume/preint/interval_table.h"
+#include "plume/preint/interval_way.h"
 
 namespace plume {
 
@@ -83,7 +83,7 @@ struct RenderSettings {
   /// Where rays are cut at the ends of intervals and at isovalues; `table` is there to compare, in
   /// the mode volume, without light and further channels, always of the exponential form.
   IntervalWay interval_way = IntervalWay::split;
-  IntervalTableSettings interval_table;
+  IntervalTableSettings interval_table;  ///< read by `table` alone
   /// Light on isosurfaces and, where it says so, intervals; none by default. Needs a scene that
   /// keeps gradients (SceneOptions::keep_gradients).
   std::optional<Lighting> lighting;

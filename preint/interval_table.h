@@ -9,22 +9,10 @@
 
 #include "plume/preint/classified_optics.h"
 #include "plume/preint/closed_form.h"
+#include "plume/preint/interval_way.h"
 #include "plume/preint/segment_optics.h"
 
 namespace plume {
-
-/// Where rays are cut at the ends of intervals and at isovalues.
-enum class IntervalWay : std::uint8_t {
-  split,  ///< in data space, exactly (IntervalState); the default
-  table,  ///< in tables, before rendering (IntervalTable); to compare
-};
-
-struct IntervalTableSettings {
-  /// Entries along each axis of scalars, >= 2; the paper's are 256.
-  int scalar_count = 256;
-  /// Entries along the axis of lengths, which is logarithmic, >= 2.
-  int length_count = 16;
-};
 
 /// A table over both scalars of a segment says where it leaves one interval and enters another, and
 /// one over scalars and length what all of it looks like: volume, the intervals that are covered

@@ -34,7 +34,10 @@ for block in $(ls block* | sort -V); do
     continue
   fi
   echo "--- $(cat "$block")"
-  bash -euo pipefail "$block"
+  # A page's variables hold from block to block, as in a reader's shell.
+  { cat variables 2>/dev/null || true; cat "$block"; } >with_variables
+  bash -euo pipefail with_variables
+  grep -E '^[a-z_]+=' "$block" >>variables || true
   ran=$((ran + 1))
 done
 [ $ran -gt 0 ] || { echo "no commands found in $page" >&2; exit 1; }

@@ -182,7 +182,7 @@ refused "an interval of one number" 1 "--interval '0.5'|LOW,HIGH" "$plume" rende
 refused "an interval of no width" 1 "[0.5, 0.5]|isosurface" "$plume" render box.vtu --interval 0.5,0.5 -o x.png
 refused "an interval from high to low" 1 "[0.5, 0.2]|[0.2, 0.5]" "$plume" render box.vtu --interval 0.5,0.2 -o x.png
 refused "an interval in another" 1 "[0.1, 0.2]|nested in [0, 0.5]" "$plume" render box.vtu --interval 0,0.5 --interval 0.1,0.2 -o x.png
-refused "light by the paper's tables" 1 "from tables have no light" "$plume" render box.vtu --interval 0,0.5 --interval-way table \
+refused "light by the paper's tables" 1 "from tables have no light" "$plume" render box.vtu --quiet --interval 0,0.5 --interval-way table \
   --light head -o x.png
 refused "intervals that overlap" 1 "[0, 0.5]|[0.4, 0.6]|overlap" "$plume" render box.vtu --interval 0,0.5 --interval 0.4,0.6 -o x.png
 refused "the same isovalue twice" 1 "two isosurfaces at 0.5" "$plume" render box.vtu --iso 0.5 --iso 0.5 -o x.png
