@@ -29,7 +29,7 @@ double chi(double a, double b);
 /// What a segment takes from what lies behind it, and chi.
 struct Absorption {
   double absorbed;  ///< 1 - exp(-m), to 1e-10, relative
-  double chi;
+  double chi;       ///< see chi()
 };
 
 /// Both at once, as they share their exponential.
