@@ -27,9 +27,14 @@ constexpr std::array<Candidate, 7> kCandidates{{{ScalarOrder::linear, 1e-4},
                                                 {ScalarOrder::adaptive, 1e-4},
                                                 {ScalarOrder::adaptive, 1e-5},
                                                 {ScalarOrder::adaptive, 1e-6}}};
-// What is measured is taken so many times, for what was not looked at. Sums along a ray vary little
-// from pixel to pixel; an extremum's error is that of one cell, and the worst is rarer.
-double safety_of(Mode mode) { return mode == Mode::maximum || mode == Mode::minimum ? 5 : 2; }
+// What is measured is taken so many times, for what was not looked at.
+constexpr double kSafety = 2;
+
+// Whether a pixel shows what one place on its ray is like: its error may be that of one cell, the
+// worst of which a sample of pixels does not find.
+bool is_of_one_place(Mode mode) {
+  return mode == Mode::maximum || mode == Mode::minimum || mode == Mode::depth;
+}
 
 double greatest_color(const Scene& scene) {
   double greatest = 1;  // of alpha
@@ -58,9 +63,17 @@ bool has_optics(Mode mode) {
 void choose_order(const Scene& scene, const Camera& camera, RenderSettings& settings,
                   double max_error, double allowed, bool choose_integrator,
                   std::vector<std::string>& reasons) {
+  if (is_of_one_place(settings.mode)) {
+    settings.order = ScalarOrder::adaptive;
+    settings.scalar_tolerance = std::clamp(0.1 * max_error, 1e-6, 1e-4);
+    reasons.push_back(fmt::format(
+        "order of the scalar: adaptive, to {:.1g} of the field's range, as the error of a "
+        "pixel is that of one place, and samples do not find the worst",
+        settings.scalar_tolerance));
+    return;
+  }
   const RenderSettings reference = reference_settings(settings, max_error);
   Pilot pilot(scene, camera, reference);
-  const double safety = safety_of(settings.mode);
   std::string tried;
   settings.order = ScalarOrder::adaptive;  // none tried yet
   for (const Candidate& candidate : kCandidates) {
@@ -73,12 +86,12 @@ void choose_order(const Scene& scene, const Camera& camera, RenderSettings& sett
     settings.scalar_tolerance = candidate.scalar_tolerance;
     RenderSettings whole = settings;
     whole.early_termination = 0;  // it has a share of its own
-    const double error = safety * pilot.error_of(whole);
+    const double error = kSafety * pilot.error_of(whole);
     if (error <= allowed) {
       reasons.push_back(fmt::format(
-          "order of the scalar: {}, at an error of {:.1g} ({} times the greatest of {} pixels "
+          "order of the scalar: {}, at an error of {:.1g} (twice the greatest of {} pixels "
           "compared with the reference){}",
-          name_of(candidate.order), error, safety, pilot.pixels(), tried));
+          name_of(candidate.order), error, pilot.pixels(), tried));
       return;
     }
     tried += fmt::format("{} order {} has {:.1g}", tried.empty() ? ";" : ",",

@@ -12,8 +12,10 @@
 ///   cancel, and is infinite where a cell is degenerate. So candidates are compared with the
 ///   reference on this very picture: on a small version of all of it, and then, pixel by pixel, in
 ///   windows around the places where the small version is worst. The greatest difference is taken
-///   twice, in the modes of extrema five times. It is an estimate: tests/lib/planner_test.cpp and
-///   docs/evidence.md say how it fares.
+///   twice. It is an estimate: tests/lib/planner_test.cpp and docs/evidence.md say how it fares.
+///   In the modes maximum, minimum and depth a pixel's error is that of one place, and no sample
+///   finds the worst: there the order is adaptive, to a tenth of the tolerance in shares of the
+///   field's range (1e-6 to 1e-4).
 ///
 /// The reference is order `adaptive` at a thousandth of the tolerance, 1e-6 to 1e-5 of the field's
 /// range, by whole rays and adaptive quadrature. Where no candidate will do, it is the plan.
