@@ -120,6 +120,7 @@ nlohmann::json to_json(const Chart& chart, std::size_t i) {
   const MeasuredWay& way = chart.ways[i];
   nlohmann::json one = to_json(way.point);
   one["frames"] = way.frames;
+  one["in_turns"] = way.in_turns;
   one["milliseconds_range"] = {way.fastest, way.slowest};
   one["kind"] = name_of(way.way.kind);
   one["dominated_by"] = method_or_null(chart.points, chart.dominators[i]);

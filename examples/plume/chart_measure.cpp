@@ -45,14 +45,16 @@ class Measurer {
                             }).image;
     result_.reference_seconds = watch.lap() / 1000;
     for (std::size_t i = 0; i < result_.ways.size(); ++i) measure_first(i, reference);
-    for (std::size_t i = 0; i < result_.ways.size(); ++i) left_ += rounds_of(i) * cost(i);
+    for (std::size_t i = 0; i < result_.ways.size(); ++i)
+      if (result_.ways[i].in_turns) left_ += rounds_of(i) * cost(i);
     const double all = left_;
     for (int round = 0; round < rounds_; ++round)
       for (std::size_t i = 0; i < result_.ways.size(); ++i) {
-        if (round >= rounds_of(i)) continue;
+        if (round >= rounds_of(i) || !result_.ways[i].in_turns) continue;
         tell({result_.ways[i].way.name, kShareOfFirst + (1 - kShareOfFirst) * (1 - left_ / all),
               left_ / 1000});
-        times_[i].push_back(timed(i));
+        build_table(i);
+        times_[i].push_back(frame(i));
         left_ -= cost(i);
       }
     tell({"done", 1, 0.0});
@@ -68,7 +70,7 @@ class Measurer {
     if (progress_) progress_(at);
   }
 
-  // Milliseconds for a table that is not there any more, as another has been built since.
+  // Milliseconds for the way's table, where the last one that was built is another.
   double build_table(std::size_t i) const {
     if (!has_table(result_.ways[i].way)) return 0;
     RenderSettings settings = result_.ways[i].way.settings;
@@ -92,10 +94,12 @@ class Measurer {
     measured.point = {measured.way.name, "plume", 0,
                       error.not_numbers > 0 ? std::max(1.0, error.largest) : error.largest,
                       error.rms};
+    if (measured.table_ms < rounds_ * first_[i]) return;
+    measured.in_turns = false;
+    for (int round = 0; round < rounds_of(i); ++round) times_[i].push_back(frame(i));
   }
 
-  double timed(std::size_t i) const {
-    build_table(i);
+  double frame(std::size_t i) const {
     Stopwatch watch;
     render(scene_, camera_, result_.ways[i].way.settings);
     return watch.lap();
@@ -103,7 +107,7 @@ class Measurer {
 
   double cost(std::size_t i) const { return first_[i] + result_.ways[i].table_ms; }
   int rounds_of(std::size_t i) const {
-    return cost(i) > kSlow ? std::min(rounds_, kRoundsOfSlow) : rounds_;
+    return first_[i] > kSlow ? std::min(rounds_, kRoundsOfSlow) : rounds_;
   }
 
   static void conclude(MeasuredWay& measured, const std::vector<double>& times) {

@@ -10,7 +10,7 @@
 namespace plume::command {
 
 /// Size of the whole picture, pixels.
-inline constexpr double kChartWidth = 1600, kChartHeight = 1000;
+inline constexpr double kChartWidth = 1800, kChartHeight = 1000;
 
 /// A rectangle in which milliseconds run to the right and an error upwards, both by decades.
 class ChartPanel {

@@ -48,7 +48,7 @@ class Script {
       : chart_(chart),
         all_(everything(chart)),
         main_({95, 105, 935, 815}, all_, &ChartPoint::max_error),
-        rms_({1130, 105, 430, 220}, all_, &ChartPoint::rms_error) {
+        rms_({1140, 105, 620, 230}, all_, &ChartPoint::rms_error) {
     for (const std::size_t i : chart.front)
       main_.make_room(chart.points[i].milliseconds,
                       width_of(front_label(i), kFrontSize) + kGap + 10);
@@ -61,7 +61,7 @@ class Script {
         svg ? "svg" : "pngcairo", kChartWidth, kChartHeight, svg ? "background 'white'" : "",
         picture);
     text_ +=
-        "set multiplot\nset logscale xy\nset grid xtics ytics lc rgb '#e4e4e4' lw 1\n"
+        "set multiplot\nset logscale xy\nset grid xtics ytics lc rgb '#d8d8d8' lw 1\n"
         "set border lc rgb '#888888'\nset tics textcolor rgb '#333333' scale 0.5\nunset key\n";
     heading();
     front_labels();
@@ -173,6 +173,13 @@ class Script {
       const ChartPlace at = main_.place(point);
       taken_.push_back({at.x - 5, at.y - 5, 10, 10});
     }
+    // The front's steps: to the right, then down.
+    for (std::size_t k = 0; k + 1 < chart_.front.size(); ++k) {
+      const ChartPlace a = main_.place(chart_.points[chart_.front[k]]);
+      const ChartPlace b = main_.place(chart_.points[chart_.front[k + 1]]);
+      taken_.push_back({a.x, a.y - 1, b.x - a.x, 2});
+      taken_.push_back({b.x - 1, a.y, 2, b.y - a.y});
+    }
     std::vector<ChartPlace> places;
     std::vector<double> widths;
     std::vector<std::string> texts, colors;
@@ -202,11 +209,11 @@ class Script {
   static int peer_shape(std::size_t family) { return kPeerShapes[family % kPeerShapes.size()]; }
 
   void legend() {
-    double y = 390;
+    double y = 400;
     int column = 0;
     const auto entry = [&](int shape, double size, const std::string& color,
                            const std::string& text) {
-      mark(1100 + 250 * column, y, shape, size, color, text);
+      mark(1105 + 340 * column, y, shape, size, color, text);
       if (++column == 2) {
         column = 0;
         y += 19;
@@ -220,7 +227,7 @@ class Script {
     if (curved())
       for (std::size_t order = 1; order < kOrderShapes.size(); ++order)
         entry(kOrderShapes[order], 1.3, "#999999", kOrderNames[order]);
-    entry(6, 2.2, kPlanner, "chosen for a tolerance");
+    entry(6, 2.2, kPlanner, "chosen for a tolerance, and what was asked");
     for (std::size_t family = 0; family < chart_.peers.size(); ++family)
       entry(peer_shape(family), 1.3, peer_color(family), chart_.peers[family].name);
     legend_end_ = y + (column > 0 ? 19 : 0);
@@ -228,7 +235,7 @@ class Script {
 
   void list() {
     const double top = legend_end_ + 34, bottom = kChartHeight - 14;
-    label(1092, legend_end_ + 10,
+    label(1097, legend_end_ + 10,
           "numbers by time; in brackets the one that takes its place, as exact and faster", 8,
           kGray);
     const std::size_t rows = (all_.size() + 1) / 2;
@@ -236,7 +243,7 @@ class Script {
     const double size = std::min(8.0, step / kLine);
     std::size_t number = 0;
     const auto row = [&](const std::string& text, const std::string& color, bool strong) {
-      const double x = 1092 + (number < rows ? 0.0 : 255.0);
+      const double x = 1097 + (number < rows ? 0.0 : 345.0);
       const double y = top + step * static_cast<double>(number % rows);
       text_ += fmt::format(
           "set label {} at screen {:.5f},{:.5f} left font 'Sans{},{:g}' tc rgb '{}'\n", quote(text),

@@ -35,7 +35,8 @@ struct ChartWay {
 ChartWay way_of(const Scene& scene, const RenderSettings& settings);
 
 /// Every order, integrator and table size that fits the scene's mesh, as changes to `base` (size,
-/// threads), whose mode must be volume. With `quick`, about one of each integrator and order.
+/// threads), whose mode must be volume; "the reference" is the last. With `quick`, about one of
+/// each integrator and order.
 std::vector<ChartWay> chart_ways(const Scene& scene, const RenderSettings& base, bool quick);
 
 /// What the planner chooses for 1e-2, 1e-3 and 1e-4.
