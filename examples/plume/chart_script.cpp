@@ -22,7 +22,7 @@ constexpr std::array kOrderShapes{7, 7, 9, 5, 13};
 constexpr std::array kPeerShapes{2, 1, 3, 12, 8, 10, 4, 14};
 constexpr std::array kOrderNames{"", "order 1", "order 2", "order 3", "adaptive order"};
 // Of the fonts' letters, pixels per point of size; what labels are made room for.
-constexpr double kLetter = 0.80, kLine = 1.62;
+constexpr double kLetter = 0.78, kLine = 1.62;
 
 std::string quote(const std::string& text) {
   std::string made = "'";
@@ -233,32 +233,46 @@ class Script {
     legend_end_ = y + (column > 0 ? 19 : 0);
   }
 
-  void list() {
-    const double top = legend_end_ + 34, bottom = kChartHeight - 14;
-    label(1097, legend_end_ + 10,
-          "numbers by time; in brackets the one that takes its place, as exact and faster", 8,
-          kGray);
-    const std::size_t rows = (all_.size() + 1) / 2;
-    const double step = std::min(15.0, (bottom - top) / static_cast<double>(rows));
-    const double size = std::min(8.0, step / kLine);
-    std::size_t number = 0;
-    const auto row = [&](const std::string& text, const std::string& color, bool strong) {
-      const double x = 1097 + (number < rows ? 0.0 : 345.0);
-      const double y = top + step * static_cast<double>(number % rows);
-      text_ += fmt::format(
-          "set label {} at screen {:.5f},{:.5f} left font 'Sans{},{:g}' tc rgb '{}'\n", quote(text),
-          x / kChartWidth, 1 - y / kChartHeight, strong ? " Bold" : "", size, color);
-      ++number;
-    };
+  struct Row {
+    std::string text, color;
+    bool strong;
+  };
+
+  std::vector<Row> rows() const {
+    std::vector<Row> rows;
     for (std::size_t i = 0; i < chart_.ways.size(); ++i) {
       const auto& by = chart_.dominators[i];
-      row(fmt::format("{}  {}{}", i + 1, chart_.points[i].method,
-                      by ? fmt::format("  ({})", *by + 1) : ""),
-          chart_.ways[i].way.tolerance ? kPlanner : color_of(i), !by);
+      rows.push_back({fmt::format("{}  {}{}", i + 1, chart_.points[i].method,
+                                  by ? fmt::format("  ({})", *by + 1) : ""),
+                      chart_.ways[i].way.tolerance ? kPlanner : color_of(i), !by});
     }
     for (std::size_t family = 0; family < chart_.peers.size(); ++family)
       for (const ChartPoint& point : chart_.peers[family].points)
-        row(fmt::format("{}  {}", number + 1, point.method), peer_color(family), false);
+        rows.push_back(
+            {fmt::format("{}  {}", rows.size() + 1, point.method), peer_color(family), false});
+    return rows;
+  }
+
+  // What the numbers stand for, in two columns, as small as it takes.
+  void list() {
+    constexpr double kLeft = 1097, kColumn = 348;
+    label(kLeft, legend_end_ + 10,
+          "numbers by time; in brackets the one that takes its place, as exact and faster", 8,
+          kGray);
+    const std::vector<Row> listed = rows();
+    const double top = legend_end_ + 34, bottom = kChartHeight - 14;
+    const std::size_t half = (listed.size() + 1) / 2;
+    const double step = std::min(15.0, (bottom - top) / static_cast<double>(half));
+    double size = std::min(8.0, step / kLine);
+    for (const Row& row : listed) size = std::min(size, kColumn / width_of(row.text, 1));
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+      const double x = kLeft + (i < half ? 0 : kColumn);
+      const double y = top + step * static_cast<double>(i % half);
+      text_ += fmt::format(
+          "set label {} at screen {:.5f},{:.5f} left font 'Sans{},{:.2f}' tc rgb '{}'\n",
+          quote(listed[i].text), x / kChartWidth, 1 - y / kChartHeight,
+          listed[i].strong ? " Bold" : "", size, listed[i].color);
+    }
   }
 
   // The stepped line under which nothing is, out to the panel's edges.

@@ -145,6 +145,7 @@ void add_curved(Ways& ways, ScalarOrder order, bool quick) {
   if (quick) return;
   for (const int count : {1, 4}) ways.samples(count);
   for (const int scalars : {64, 128}) ways.table(scalars, 32);
+  ways.quadrature(1e-4, kUsualEnd);  // of curves as they are, without linear parts
 }
 
 }  // namespace
@@ -210,10 +211,11 @@ std::vector<ChartWay> chart_ways(const Scene& scene, const RenderSettings& base,
       if (quick && to != 1e-4) continue;
       ways.order(ScalarOrder::adaptive, to);
       ways.closed_form(to >= 1e-4 ? kUsualEnd : 0);
+      if (!quick) ways.quadrature(to, to >= 1e-4 ? kUsualEnd : 0);
     }
-    ways.order(ScalarOrder::adaptive, 1e-6);
+  } else if (!quick) {
+    ways.quadrature(1e-6, 0);
   }
-  if (!quick) ways.quadrature(1e-6, 0);
   std::vector<ChartWay> made = ways.take();
   made.push_back(way_of(scene, reference_settings(base)));
   made.back().name = "the reference";
