@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "console.h"
-
 namespace plume::command {
 namespace {
 
@@ -70,12 +68,7 @@ std::string peers_table(const Chart& chart) {
 }  // namespace
 
 std::string chart_report(const Chart& chart) {
-  const ChartSubject& on = chart.subject;
-  return fmt::format(
-             "{}: {} cells ({}), '{}', {} x {} pixels, {} thread{}, {}; medians of {} frames in "
-             "turns\n\n",
-             on.mesh, with_separators(on.cells), on.form, on.field, on.width, on.height, on.threads,
-             on.threads == 1 ? "" : "s", on.processor, on.rounds) +
+  return fmt::format("{}: {}\n\n", chart.subject.mesh, describe(chart.subject)) +
          ways_table(chart) + "\n" + planned_table(chart) + (chart.peers.empty() ? "" : "\n") +
          peers_table(chart);
 }
