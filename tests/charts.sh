@@ -17,6 +17,9 @@ shift 2
 names=${*:-fin-hexahedra fin-tetrahedra combustor box-10M}
 datasets=${PLUME_DATASETS:-$source_dir/../shared/datasets}
 size=${CHART_SIZE:-512} rounds=${CHART_ROUNDS:-7} threads=${CHART_THREADS:-1}
+# VTK's projected tetrahedra need a display.
+on_a_screen=()
+command -v xvfb-run >/dev/null && on_a_screen=(xvfb-run -a)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -35,7 +38,7 @@ chart() {
   set -- "$@" --tf "$work/seven.json"
   echo "charts.sh: $name" >&2
   if [ -x "$bin/plume_peers" ]; then
-    "$bin/plume_peers" "$mesh" "$@" --size "$size" --threads "$threads" --rounds "$rounds" ${peers_options:-} \
+    "${on_a_screen[@]}" "$bin/plume_peers" "$mesh" "$@" --size "$size" --threads "$threads" --rounds "$rounds" ${peers_options:-} \
       -o "$work/peers.csv" >"$work/peers.txt"
     # Its own few of ours are measured better below.
     awk -F, '$2 != "plume"' "$work/peers.csv" >"$work/others.csv"
