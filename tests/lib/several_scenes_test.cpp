@@ -78,28 +78,6 @@ TEST(SeveralScenes, ThatAreOneMeshInTwoPartsAreThatMesh) {
     }
 }
 
-// A ray in the plane of the faces that two parts share sees one of them.
-TEST(SeveralScenes, ThatShareFacesAreSeenOnceInTheirPlane) {
-  for (const char* form : {"box-tetrahedra", "box-hexahedra", "box-mixed"}) {
-    SCOPED_TRACE(form);
-    const Mesh mesh = with(generate(form, {5, 0, 3}), wavy);
-    const Scenes parts = parts_of(mesh, {left, right}, volume_alone());
-    RenderSettings settings = exact(1);
-    settings.channels = {"optical_depth"};
-    Scene whole(mesh);
-    whole.set_classification(volume_alone());
-    for (int i = 0; i < 200; ++i) {
-      Camera camera;
-      const double cut = i % 2 == 0 ? 0.4 : 0.6;
-      camera.position = {cut, 0.1 + 0.004 * i, 3};
-      camera.focal_point = {cut, 0.9 - 0.003 * i, 0};
-      const auto one = render(whole, camera, settings).image;
-      const auto two = render(parts.pointers(), camera, settings).image;
-      EXPECT_NEAR(one.channels[0].values[0], two.channels[0].values[0], 2e-6) << i;
-    }
-  }
-}
-
 TEST(SeveralScenes, KeepIntervalsAndIsosurfacesWholeAcrossACut) {
   for (const char* form : kSplitForms) {
     SCOPED_TRACE(form);
