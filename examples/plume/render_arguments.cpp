@@ -27,9 +27,10 @@ void add_render_options(CLI::App& command, RenderArguments& args) {
       ->required();
   command.add_option("--solution", args.solution, "Plot3D: the q file of the grid");
   command
-      .add_option("--with", args.others,
-                  "Another mesh in the same picture: FILE[:FIELD], by default of the field that the "
-                  "first shows, which then has one look in all (repeatable)")
+      .add_option(
+          "--with", args.others,
+          "Another mesh in the same picture: FILE[:FIELD], by default of the field that the "
+          "first shows, which then has one look in all (repeatable)")
       ->allow_extra_args(false);
   command
       .add_option("--overlap", args.overlap,

@@ -15,6 +15,9 @@
 
 namespace plume::command {
 
+/// Of any form.
+Bounds bounds_of_mesh(const Mesh& mesh);
+
 /// Shows one step's mesh after the other. All show the field that the first does, and are coloured
 /// by what was chosen for the first, so that pictures can be compared and a movie does not flicker.
 /// Where the points and cells stay, the walkable mesh does.
@@ -29,16 +32,19 @@ class SeriesScene {
   /// be.
   void show(Mesh mesh, const TimeSeries& series);
 
-  /// Bounds of all meshes of the picture, before the first is shown; see SceneOptions.
+  /// Before the first is shown: bounds of all meshes of the picture (see SceneOptions).
   void set_frame_bounds(const Bounds& bounds) { options_.frame_bounds = bounds; }
-  /// Colours, isosurfaces and intervals as the arguments say; once, after the first step is shown.
-  void choose_look(const FittedLook& fitted);
-  /// Surfaces and walls as the arguments say, of this step's mesh and those after it.
-  void choose_surfaces(const Mesh& mesh);
+  /// Before the first is shown: another field than the options say.
+  void set_field(const FieldRequest& request) { options_.field = request; }
+  /// Before the first is shown: with the surfaces and walls of the arguments.
+  void show_surfaces() { has_surfaces_ = true; }
 
+  /// After the first is shown: colours, isosurfaces and intervals as the arguments say.
+  void choose_look(const FittedLook& fitted);
+  /// Or colours alone, fitted to the field: of one that the arguments do not speak of.
+  void choose_colors();
   /// What is shown. Requires that something is.
   const Scene& scene() const { return *scene_; }
-  Scene& scene() { return *scene_; }
   /// Whether the last step's mesh was that of the step before.
   bool mesh_stayed() const { return mesh_stayed_; }
 
