@@ -26,6 +26,16 @@ void add_render_options(CLI::App& command, RenderArguments& args) {
                   "in quotes: 'flow_*.vtu', 'flow_%04d.vtu'")
       ->required();
   command.add_option("--solution", args.solution, "Plot3D: the q file of the grid");
+  command
+      .add_option("--with", args.others,
+                  "Another mesh in the same picture: FILE[:FIELD], by default of the field that the "
+                  "first shows, which then has one look in all (repeatable)")
+      ->allow_extra_args(false);
+  command
+      .add_option("--overlap", args.overlap,
+                  "Where meshes are in one place: add, both are seen; first, the one named first; "
+                  "refuse (add)")
+      ->check(CLI::IsMember(names_of(kOverlaps)));
   command.add_option("-o,--output", args.output,
                      "The picture: .png or .exr; of several, with a place for their number from "
                      "0, such as frame_%04d.png (picture.png)");

@@ -11,6 +11,7 @@
 #include "plume/io/time_series.h"
 #include "plume/lib/plume.h"
 #include "render_arguments.h"
+#include "render_choices.h"
 
 namespace plume::command {
 
@@ -28,8 +29,16 @@ class SeriesScene {
   /// be.
   void show(Mesh mesh, const TimeSeries& series);
 
+  /// Bounds of all meshes of the picture, before the first is shown; see SceneOptions.
+  void set_frame_bounds(const Bounds& bounds) { options_.frame_bounds = bounds; }
+  /// Colours, isosurfaces and intervals as the arguments say; once, after the first step is shown.
+  void choose_look(const FittedLook& fitted);
+  /// Surfaces and walls as the arguments say, of this step's mesh and those after it.
+  void choose_surfaces(const Mesh& mesh);
+
   /// What is shown. Requires that something is.
   const Scene& scene() const { return *scene_; }
+  Scene& scene() { return *scene_; }
   /// Whether the last step's mesh was that of the step before.
   bool mesh_stayed() const { return mesh_stayed_; }
 
@@ -51,6 +60,7 @@ class SeriesScene {
   bool mesh_stayed_ = false;
   std::array<float, 2> values_{};
   std::string fitted_to_;
+  bool has_surfaces_ = false;
   std::vector<OpaqueSurface> surfaces_;  // of files
 };
 
