@@ -21,6 +21,7 @@
 #include <cmath>
 #include <new>
 #include <optional>
+#include <string>
 #include <thread>
 
 #include "plume/lib/render.h"
@@ -191,6 +192,9 @@ plume::Camera camera_of(vtkCamera* camera, const plume::Bounds& bounds, int widt
 
 void vtkPlumeImageFilter::Draw(vtkDataObject& data, vtkImageData& output) {
   const auto [width, height] = inside_->size;
+  if (width < 1 || height < 1)
+    throw plume::Error("a picture of " + std::to_string(width) + " x " + std::to_string(height) +
+                       " pixels; give a size of at least 1 x 1 (SetSize)");
   plume::RenderSettings settings;
   settings.width = width;
   settings.height = height;

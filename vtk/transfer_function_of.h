@@ -16,7 +16,8 @@ namespace plume {
 /// Functions that are linear between their points (RGB or gray, sharpness 0, midpoint 0.5) become
 /// knots at these points, exactly. For other spaces, sharpness, midpoints and logarithmic scales
 /// knots are added until colours are within 1e-3, and opacities within 1e-3 of the greatest, of
-/// what VTK says at five places between any two. Beyond the first and the last point VTK's clamping
+/// what VTK says; the space Lab CIEDE2000, which VTK itself has in steps of 1/255, is taken from a
+/// table of 1024 colours. Beyond the first and the last point VTK's clamping
 /// is followed. Gradient opacity and shading are passed over, as VTK's ray casters do.
 ///
 /// Throws Error where a function has no points, where the unit distance is not above 0, and where
