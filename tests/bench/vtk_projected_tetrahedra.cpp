@@ -120,6 +120,9 @@ std::vector<PeerWay> vtk_projected_tetrahedra_ways(const PeerScene& scene) {
                    "not do (VTK takes 3.2)\n");
       return {};
     }
+    // In its first frame VTK leaves out the first thousand cells, before which it has not told the
+    // shader what it is given (9.1).
+    projected->render();
     ways.push_back(
         {"VTK projected tetrahedra",
          fmt::format("{} a channel{}", floats ? "floats" : "8 bits", scene.on_tetrahedra()),

@@ -9,10 +9,9 @@
 namespace plume::bench {
 
 bool has_x_display() {
-  Display* const display = XOpenDisplay(nullptr);
-  if (display == nullptr) return false;
-  XCloseDisplay(display);
-  return true;
+  // Kept: a server whose last client leaves starts anew, and refuses others meanwhile.
+  static Display* const display = XOpenDisplay(nullptr);
+  return display != nullptr;
 }
 
 void limit_rasterizer_threads(int threads) {
