@@ -4,8 +4,11 @@
 // against its documentation. Its interval iterators, with which empty space could be left out, are
 // not used: all peers that sample are given the same samples.
 
-#include <openvkl/device/openvkl.h>
+// In this order, as documented.
+// clang-format off
 #include <openvkl/openvkl.h>
+#include <openvkl/device/openvkl.h>
+// clang-format on
 
 #include <array>
 #include <cmath>

@@ -3,6 +3,10 @@
 #include <fmt/format.h>
 #include <time.h>
 
+#include <algorithm>
+#include <filesystem>
+
+#include "plume/io/image_file.h"
 #include "plume/tests/bench/markdown_table.h"
 #include "plume/tests/bench/timing.h"
 
@@ -22,8 +26,14 @@ std::vector<PeerRow> compare_peers(std::span<const PeerWay> ways, const Image& r
   std::vector<double> spent(ways.size());
   for (std::size_t i = 0; i < ways.size(); ++i) {
     spent[i] = frame_seconds(ways[i]);
+    const Image picture = ways[i].picture();
     rows.push_back({ways[i].family, ways[i].method, 0, 0, spent[i] >= timings.limit,
-                    picture_error(ways[i].picture(), reference)});
+                    picture_error(picture, reference)});
+    if (!timings.pictures.empty()) {
+      std::string name = ways[i].family + " " + ways[i].method + ".png";
+      std::replace(name.begin(), name.end(), '/', '-');
+      write_image(picture, std::filesystem::path(timings.pictures) / name);
+    }
     if (rows[i].cold) taken[i].push_back(spent[i]);
   }
   for (int round = 0; round < timings.rounds; ++round)

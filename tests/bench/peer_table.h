@@ -15,6 +15,8 @@ struct PeerTimings {
   int rounds = 5;          ///< frames of each way; medians are reported
   double limit = 60;       ///< seconds a way may take in all; one frame is always made
   bool one_thread = true;  ///< then the process' time on the processor is taken, else the clock's
+  /// A directory for the pictures, as PNG files; none where empty.
+  std::string pictures;
 };
 
 struct PeerRow {

@@ -71,6 +71,8 @@ void add_options(CLI::App& app, Arguments& args) {
       ->capture_default_str();
   app.add_option("--limit", args.timings.limit, "seconds for each way, of which one frame is made")
       ->capture_default_str();
+  app.add_option("--pictures", args.timings.pictures, "a directory for them, as PNG files")
+      ->check(CLI::ExistingDirectory);
   app.add_flag("--quick", args.quick, "fewer steps");
   app.add_option("--only", args.only, "some peers")
       ->check(CLI::IsMember(kFamilies))
