@@ -8,7 +8,8 @@
 #include <array>
 #include <functional>
 #include <map>
-#include <tuple>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "plume/lib/plume.h"
@@ -80,69 +81,92 @@ Classification opaque_isosurface(const Scene& scene) {
 }
 
 template <class Walker>
-FrameRates measure_frames(const Mesh& mesh, Family family, int size, int rounds) {
-  Scene volume(mesh, {{}, false, CellData::constant, true});
-  volume.set_transfer_function(seven_knots(volume));
-  Scene surface(mesh, {{}, false, CellData::constant, true});
-  surface.set_transfer_function(volume.transfer_function());
-  surface.set_classification(opaque_isosurface(surface));
-  FirstHits<Walker> first_hits(mesh, family);
-  const auto settings = [size](int threads) {
-    RenderSettings made;
-    made.width = made.height = size;
-    made.threads = threads;
-    return made;
-  };
-  FrameRates rates;
-  const auto views = frame_cameras(volume.bounds());
-  for (std::size_t v = 0; v < 4; ++v) {
-    const Camera& camera = views[v].camera;
-    std::vector<std::function<void()>> tasks;
-    std::vector<double*> found;
-    const auto add = [&](double& rate, std::function<void()> task) {
-      task();  // once beforehand: hierarchies are made when a picture needs them
-      tasks.push_back(std::move(task));
-      found.push_back(&rate);
-    };
-    for (int threads = 1; threads <= 2; ++threads) {
-      const auto at = static_cast<std::size_t>(threads - 1);
-      const RenderSettings plain = settings(threads);
-      RenderSettings lit = plain, maximum = plain;
-      lit.lighting = Lighting{};
-      maximum.mode = plume::Mode::maximum;
-      const auto picture = [&camera](const Scene& scene, const RenderSettings& how) {
-        return [&scene, &camera, how] { render(scene, camera, how); };
-      };
-      add(rates.initial[at], [&, threads] { first_hits.find(camera, size, threads); });
-      add(rates.isosurface[at], picture(surface, plain));
-      add(rates.lit[at], picture(surface, lit));
-      add(rates.maximum[at], picture(volume, maximum));
-      add(rates.volume[at], picture(volume, plain));
-      if (threads > 1) continue;
-      RenderSettings scalar = plain;
-      scalar.scalar_twin = true;
-      add(rates.isosurface_scalar, picture(surface, scalar));
-      add(rates.volume_scalar, picture(volume, scalar));
-    }
-    const auto seconds = take_turns(tasks, rounds, wall_seconds);
-    for (std::size_t i = 0; i < tasks.size(); ++i) *found[i] += 0.25 / median(seconds[i]);
+class Frames {
+ public:
+  Frames(const Mesh& mesh, Family family)
+      : volume_(mesh, {{}, false, CellData::constant, true}),
+        surface_(mesh, {{}, false, CellData::constant, true}),
+        first_hits_(mesh, family) {
+    volume_.set_transfer_function(seven_knots(volume_));
+    surface_.set_transfer_function(volume_.transfer_function());
+    surface_.set_classification(opaque_isosurface(surface_));
   }
+
+  FrameRates rates(int size, int rounds) {
+    FrameRates rates;
+    const auto views = frame_cameras(volume_.bounds());
+    for (std::size_t v = 0; v < 4; ++v) {
+      for (int threads = 1; threads <= 2; ++threads) {
+        std::vector<Task> tasks;
+        add_tasks(rates, views[v].camera, size, threads, tasks);
+        std::vector<std::function<void()>> todo;
+        for (const Task& task : tasks) {
+          if (v == 0) task.todo();  // once beforehand: hierarchies are made when they are needed
+          todo.push_back(task.todo);
+        }
+        const auto seconds = take_turns(todo, rounds, threads == 1 ? thread_seconds : wall_seconds);
+        for (std::size_t i = 0; i < tasks.size(); ++i) *tasks[i].rate += 0.25 / median(seconds[i]);
+      }
+    }
+    return rates;
+  }
+
+ private:
+  struct Task {
+    double* rate;
+    std::function<void()> todo;
+  };
+
+  void add_tasks(FrameRates& rates, const Camera& camera, int size, int threads,
+                 std::vector<Task>& tasks) {
+    const auto at = static_cast<std::size_t>(threads - 1);
+    RenderSettings plain;
+    plain.width = plain.height = size;
+    plain.threads = threads;
+    RenderSettings lit = plain, maximum = plain, scalar = plain;
+    lit.lighting = Lighting{};
+    maximum.mode = plume::Mode::maximum;
+    scalar.scalar_twin = true;
+    const auto add = [&](double& rate, const Scene& scene, const RenderSettings& how) {
+      tasks.push_back({&rate, [&scene, &camera, how] { render(scene, camera, how); }});
+    };
+    tasks.push_back({&rates.initial[at],
+                     [this, &camera, size, threads] { first_hits_.find(camera, size, threads); }});
+    add(rates.isosurface[at], surface_, plain);
+    add(rates.lit[at], surface_, lit);
+    add(rates.maximum[at], volume_, maximum);
+    add(rates.volume[at], volume_, plain);
+    if (threads > 1) return;
+    add(rates.isosurface_scalar, surface_, scalar);
+    add(rates.volume_scalar, volume_, scalar);
+  }
+
+  Scene volume_, surface_;
+  FirstHits<Walker> first_hits_;
+};
+
+template <class Walker>
+std::array<FrameRates, 2> measure_frames(const ThesisMesh& source, const Mesh& mesh,
+                                         const PaperOptions& options) {
+  Frames<Walker> frames(mesh, source.family);
+  std::array<FrameRates, 2> rates;
+  for (std::size_t s = 0; s < 2; ++s)
+    rates[s] = frames.rates(options.quick ? kThesisSizes[s] / 32 : kThesisSizes[s], options.rounds);
   return rates;
 }
 
 }  // namespace
 
-std::optional<FrameRates> frame_rates(const ThesisMesh& source, int size,
-                                      const PaperOptions& options) {
-  static std::map<std::tuple<std::string, Family, int>, FrameRates> known;
-  const auto key = std::tuple(source.name, source.family, size);
+std::optional<std::array<FrameRates, 2>> frame_rates(const ThesisMesh& source,
+                                                     const PaperOptions& options) {
+  static std::map<std::pair<std::string, Family>, std::array<FrameRates, 2>> known;
+  const auto key = std::pair(source.name, source.family);
   if (const auto found = known.find(key); found != known.end()) return found->second;
   const std::optional<Mesh> mesh = source.load();
   if (!mesh) return std::nullopt;
-  const FrameRates made =
-      source.family == Family::hexahedra
-          ? measure_frames<GridWalker>(*mesh, source.family, size, options.rounds)
-          : measure_frames<TetWalker>(*mesh, source.family, size, options.rounds);
+  const auto made = source.family == Family::hexahedra
+                        ? measure_frames<GridWalker>(source, *mesh, options)
+                        : measure_frames<TetWalker>(source, *mesh, options);
   return known.emplace(key, made).first->second;
 }
 

@@ -9,8 +9,8 @@
 
 namespace plume::bench {
 
-/// Frames a second by the clock, the mean of four views, each the median of a picture's rounds.
-/// Arrays: on one and on two threads.
+/// Frames a second, the mean of four views, each the median of a picture's rounds. Arrays: on one
+/// thread, by its time on the processor, and on two, by the clock.
 struct FrameRates {
   std::array<double, 2> initial{};     ///< first hits alone
   std::array<double, 2> isosurface{};  ///< one colour
@@ -21,9 +21,12 @@ struct FrameRates {
   double volume_scalar = 0;            ///< likewise
 };
 
-/// Measures all of it, or says what was measured before: tables share it. `size`: pixels along each
-/// side. Nothing where the data set is absent.
-std::optional<FrameRates> frame_rates(const ThesisMesh& source, int size,
-                                      const PaperOptions& options);
+/// The thesis' pictures are 512 and 1024 pixels wide and high.
+inline constexpr std::array<int, 2> kThesisSizes{512, 1024};
+
+/// Of pictures of the thesis' sizes, or, where `quick`, of a 32nd of these. Measures all of it, or
+/// says what was measured before: tables share it. Nothing where the data set is absent.
+std::optional<std::array<FrameRates, 2>> frame_rates(const ThesisMesh& source,
+                                                     const PaperOptions& options);
 
 }  // namespace plume::bench

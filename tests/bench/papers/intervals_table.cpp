@@ -97,6 +97,9 @@ std::string intervals_table_1(const PaperOptions& options) {
         settings.width = settings.height = size;
         settings.order = order;
         tasks.emplace_back([=, &camera] { render(*scene, camera, settings); });
+        // What is made once, beforehand.
+        settings.width = settings.height = 16;
+        render(*scene, camera, settings);
       }
 
     const auto seconds = take_turns(tasks, options.rounds, wall_seconds);
