@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -82,6 +83,10 @@ class Frame {
     Ray ray = rays_(window_.x + pixel.x + 0.5, window_.y + pixel.y + 0.5);
     if (opaque_.any()) ray.t_max = opaque_.limits[pixel.index];
     return ray;
+  }
+  /// Whether nothing opaque ends the pixel's ray.
+  bool sees_endlessly(const PixelPlace& pixel) const {
+    return !opaque_.any() || opaque_.limits[pixel.index] == std::numeric_limits<double>::infinity();
   }
   /// Where the pixel is in arrays of the whole picture, of which the image may be a window.
   std::size_t index_in_picture(const PixelPlace& pixel) const {

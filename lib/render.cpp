@@ -49,17 +49,12 @@ bool make_tiles(const Frame& frame, TileMaker& maker, const Progress& progress,
   const int across = frame.tiles_across(), tiles = across * frame.tiles_down();
   ProgressReport report(progress, tiles);
   tbb::enumerable_thread_specific<Counts> counts;
-  const int available = tbb::this_task_arena::max_concurrency();
-  const int threads = frame.settings().threads;
-  tbb::task_arena arena(threads > 0 ? std::min(threads, available) : available);
-  arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<int>(0, tiles, 1), [&](const auto& range) {
-      for (int tile = range.begin(); tile != range.end(); ++tile) {
-        if (report.cancelled()) return;
-        maker.make({tile % across * kTile, tile / across * kTile}, counts.local());
-        report.tile_done();
-      }
-    });
+  tbb::parallel_for(tbb::blocked_range<int>(0, tiles, 1), [&](const auto& range) {
+    for (int tile = range.begin(); tile != range.end(); ++tile) {
+      if (report.cancelled()) return;
+      maker.make({tile % across * kTile, tile / across * kTile}, counts.local());
+      report.tile_done();
+    }
   });
   for (const Counts& part : counts) {
     statistics.rays_hit += part.hit;
@@ -74,11 +69,9 @@ bool make_tiles(const Frame& frame, TileMaker& maker, const Progress& progress,
   return report.cancelled();
 }
 
-}  // namespace
-
-RenderResult render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
-                    const Progress& progress) {
-  check_settings(scene, settings);
+// On the threads of the arena that it is called in.
+RenderResult render_here(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                         const Progress& progress) {
   RenderResult result;
   std::vector<std::string> reasons;
   const tbb::tick_count start = tbb::tick_count::now();
@@ -141,6 +134,16 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   result.statistics.rays = frame.pixel_count();
   result.image = std::move(frame.image());
   return result;
+}
+
+}  // namespace
+
+RenderResult render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                    const Progress& progress) {
+  check_settings(scene, settings);
+  const int available = tbb::this_task_arena::max_concurrency();
+  tbb::task_arena arena(settings.threads > 0 ? std::min(settings.threads, available) : available);
+  return arena.execute([&] { return render_here(scene, camera, settings, progress); });
 }
 
 }  // namespace plume
