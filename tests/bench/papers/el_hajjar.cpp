@@ -193,7 +193,8 @@ view iso. {1}: a stand-in, {2}^3 points.
 paper's has 256^3) of a constant length, written as plainly as the paper describes them. Errors are of linear RGBA,
 against adaptive quadrature along the same rays, cut to whole slabs; the paper shows its errors as pictures alone.
 Plume renders the same grid from voxel to voxel, integrated in closed form; its error is that of the whole picture
-against `--tolerance 0`. Frames: of a thread's time on the processor, medians.
+against `--tolerance 0`. Its packets of order 1 are vectorised and (a) to (c) are not, so that times compare these three
+with each other, and Plume's as a user has it. Frames: of a thread's time on the processor, medians.
 
 )",
              size, figure.name, kPoints) +

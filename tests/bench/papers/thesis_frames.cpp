@@ -39,14 +39,13 @@ std::string table(Family family, const PaperOptions& options, const Row& header,
   for (const ThesisMesh& source : thesis_meshes(family, options.quick)) {
     const Theirs& of_mesh = theirs[at++];
     const auto rates = frame_rates(source, options);
-    if (!rates) {
-      rows.push_back(absent_row(source, header.size()));
-      continue;
-    }
     for (std::size_t s = 0; s < 2; ++s) {
       Row row{s == 0 ? source.name : "", std::to_string(kThesisSizes[s])};
       append(row, of_mesh[s]);
-      append(row, ours((*rates)[s]));
+      if (rates)
+        append(row, ours((*rates)[s]));
+      else
+        row = without_data(row, header.size());
       rows.push_back(row);
     }
   }
@@ -216,8 +215,10 @@ std::string thesis_table_6_8(const PaperOptions& options) {
     for (const ThesisMesh& source : thesis_meshes(family, options.quick)) {
       const Theirs& theirs = kTheirs[grids ? 1 : 0][at++];
       const auto mesh = source.load();
+      const Row of_thesis{source.name, grids ? "hexahedral" : "tetrahedral", theirs.primitives,
+                          theirs.dimensions};
       if (!mesh) {
-        rows.push_back(absent_row(source, rows.front().size()));
+        rows.push_back(without_data(of_thesis, rows.front().size()));
         continue;
       }
       const Scene scene(*mesh);
@@ -225,11 +226,10 @@ std::string thesis_table_6_8(const PaperOptions& options) {
       const auto each = [&](std::size_t of) {
         return times(static_cast<double>(scene.bytes()) / static_cast<double>(of));
       };
-      rows.push_back({source.name, grids ? "hexahedral" : "tetrahedral", theirs.primitives,
-                      theirs.dimensions, with_commas(scene.cell_count()),
-                      with_commas(scene.point_count()), each(scene.cell_count()),
-                      each(scene.point_count()), with_commas(thesis), with_commas(scene.bytes()),
-                      source.what});
+      rows.push_back(of_thesis);
+      append(rows.back(), {with_commas(scene.cell_count()), with_commas(scene.point_count()),
+                           each(scene.cell_count()), each(scene.point_count()), with_commas(thesis),
+                           with_commas(scene.bytes()), source.what});
     }
   }
   return R"(Page 156. The thesis has 224,873 here and 224,874 in table 6.2, and counts a grid's points as its primitives. Memory is of

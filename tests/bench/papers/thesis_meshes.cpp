@@ -43,9 +43,9 @@ std::string with_commas(std::size_t number) {
   return fmt::format("{},{:03}", with_commas(number / 1000), number % 1000);
 }
 
-std::vector<std::string> absent_row(const ThesisMesh& mesh, std::size_t columns) {
-  std::vector<std::string> row(columns, "-");
-  row[0] = mesh.name + " (absent)";
+std::vector<std::string> without_data(std::vector<std::string> row, std::size_t columns) {
+  if (!row[0].empty()) row[0] += " (absent)";
+  row.resize(columns, "-");
   return row;
 }
 

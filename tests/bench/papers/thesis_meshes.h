@@ -28,7 +28,7 @@ std::vector<ThesisMesh> thesis_meshes(Family family, bool quick);
 /// "224,874".
 std::string with_commas(std::size_t number);
 
-/// A line of a table for a mesh that is absent: its name, then dashes.
-std::vector<std::string> absent_row(const ThesisMesh& mesh, std::size_t columns);
+/// A row of what the thesis has, made full with dashes: its data set is absent.
+std::vector<std::string> without_data(std::vector<std::string> row, std::size_t columns);
 
 }  // namespace plume::bench
