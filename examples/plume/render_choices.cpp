@@ -182,6 +182,13 @@ Camera turned(const Camera& first, const RenderArguments& args, double turn) {
   return camera;
 }
 
+std::string describe_camera(const Camera& camera) {
+  return fmt::format("position {} focal point {} view up {} view angle {} parallel scale {}{}",
+                     fmt::join(camera.position, ","), fmt::join(camera.focal_point, ","),
+                     fmt::join(camera.view_up, ","), camera.view_angle, camera.parallel_scale,
+                     camera.parallel ? " (parallel)" : "");
+}
+
 void choose_background(const std::string& text, ImageFileOptions& options) {
   if (text == "transparent") return;
   std::vector<double> rgb;

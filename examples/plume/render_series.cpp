@@ -214,11 +214,7 @@ class SeriesRenderer {
         {"plume:field", scene_.scene().field().name},
         {"plume:mode", args_.mode},
         {"plume:plan", fmt::format("{}", fmt::join(statistics.plan, "; "))},
-        {"plume:camera",
-         fmt::format("position {} focal point {} view up {} view angle {} parallel scale {}{}",
-                     fmt::join(camera.position, ","), fmt::join(camera.focal_point, ","),
-                     fmt::join(camera.view_up, ","), camera.view_angle, camera.parallel_scale,
-                     camera.parallel ? " (parallel)" : "")}};
+        {"plume:camera", describe_camera(camera)}};
     if (series_.size() > 1) lines.emplace_back("plume:step", std::to_string(frame.step));
     if (time_) lines.emplace_back("plume:time", fmt::format("{}", *time_));
     return lines;
