@@ -4,12 +4,14 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "plume/lib/camera.h"
+#include "plume/lib/empty_space.h"
 #include "plume/lib/opaque_pixels.h"
 #include "plume/lib/render.h"
 #include "plume/preint/optical_depth.h"
@@ -88,6 +90,10 @@ class Frame {
     if (opaque_.any()) ray.t_max = opaque_.limits[pixel.index];
     return ray;
   }
+  /// Whether nothing opaque ends the pixel's ray.
+  bool sees_endlessly(const PixelPlace& pixel) const {
+    return !opaque_.any() || opaque_.limits[pixel.index] == std::numeric_limits<double>::infinity();
+  }
   /// Where the pixel is in arrays of the whole picture, of which the image may be a window.
   std::size_t index_in_picture(const PixelPlace& pixel) const {
     return static_cast<std::size_t>(window_.y + pixel.y) *
@@ -96,6 +102,9 @@ class Frame {
   }
   /// Ends rays at what is opaque.
   void set_opaque(OpaquePixels opaque) { opaque_ = std::move(opaque); }
+  /// Lets rays pass over it, where there is one.
+  void set_empty_space(std::optional<EmptySpace> space) { empty_space_ = std::move(space); }
+  const std::optional<EmptySpace>& empty_space() const { return empty_space_; }
   /// Puts the surfaces behind what rays saw in front of them, once all pixels are made.
   void put_surfaces();
   float* rgba(const PixelPlace& pixel) { return &image_.rgba[4 * pixel.index]; }
@@ -141,6 +150,7 @@ class Frame {
   double tolerance_, gap_;
   Image image_;
   OpaquePixels opaque_;
+  std::optional<EmptySpace> empty_space_;
   ChannelPlaces channels_;
   std::optional<std::size_t> raw_;
 };

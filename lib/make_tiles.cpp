@@ -3,9 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
 
-#include <algorithm>
 #include <atomic>
 #include <mutex>
 
@@ -40,17 +38,12 @@ bool make_tiles(const Frame& frame, TileMaker& maker, const Progress& progress,
   const int across = frame.tiles_across(), tiles = across * frame.tiles_down();
   ProgressReport report(progress, tiles);
   tbb::enumerable_thread_specific<Counts> counts;
-  const int available = tbb::this_task_arena::max_concurrency();
-  const int threads = frame.settings().threads;
-  tbb::task_arena arena(threads > 0 ? std::min(threads, available) : available);
-  arena.execute([&] {
-    tbb::parallel_for(tbb::blocked_range<int>(0, tiles, 1), [&](const auto& range) {
-      for (int tile = range.begin(); tile != range.end(); ++tile) {
-        if (report.cancelled()) return;
-        maker.make({tile % across * kTile, tile / across * kTile}, counts.local());
-        report.tile_done();
-      }
-    });
+  tbb::parallel_for(tbb::blocked_range<int>(0, tiles, 1), [&](const auto& range) {
+    for (int tile = range.begin(); tile != range.end(); ++tile) {
+      if (report.cancelled()) return;
+      maker.make({tile % across * kTile, tile / across * kTile}, counts.local());
+      report.tile_done();
+    }
   });
   for (const Counts& part : counts) {
     statistics.rays_hit += part.hit;

@@ -13,10 +13,15 @@
 #include "plume/traverse/packets.h"
 
 namespace plume {
+namespace {
 
-RenderResult render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
-                    const Progress& progress) {
-  check_settings(scene, settings);
+bool has_hierarchy(const Scene& scene) {
+  return scene.body().hierarchy.made() || scene.body().ranges.made();
+}
+
+// On the threads of the arena that it is called in.
+RenderResult render_here(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                         const Progress& progress) {
   RenderResult result;
   std::vector<std::string> reasons;
   const tbb::tick_count start = tbb::tick_count::now();
@@ -33,15 +38,18 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
     effective.integrator.kind = IntegratorKind::closed_form;
   plan = describe_plan(scene, effective);
   plan.insert(plan.begin(), reasons.begin(), reasons.end());
+  const bool had_hierarchy = has_hierarchy(scene);
   const auto why_walked = no_search(scene, effective);
-  const std::optional<PacketPieces> pieces = pieces_for_packets(frame);
+  std::optional<PacketPieces> pieces = pieces_for_packets(frame);
+  frame.set_empty_space(find_empty_space(scene, effective, pieces.has_value(), plan));
+  if (frame.empty_space()) pieces.reset();
   if (!why_walked)
     plan.push_back(fmt::format(
         "rays: through a hierarchy of cells ({}), as only {}",
         scene.body().hierarchy.made() ? "made before" : "made for this picture",
         is_classified(scene, settings) ? "isosurfaces are to be seen"
                                        : "cells with a greater or lesser scalar need a look"));
-  else if (has_packets(scene))
+  else if (has_packets(scene) && !frame.empty_space())
     plan.push_back(
         pieces ? fmt::format("rays: in packets, {}", packet_instruction_set())
                : "rays: one by one (packets serve the volume mode by the closed form, "
@@ -63,7 +71,6 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
   const auto kept = scene.body().integrators.get(scene.transfer_function(), effective.integrator);
   const Integrator& integrator = *kept;
   if (const auto table = describe_table(integrator)) plan.push_back(*table);
-  const bool had_hierarchy = scene.body().hierarchy.made();
   const bool by_table =
       is_classified(scene, settings) && settings.interval_way == IntervalWay::table;
   const auto maker = by_table                         ? table_tiles(frame)
@@ -72,13 +79,22 @@ RenderResult render(const Scene& scene, const Camera& camera, const RenderSettin
                      : is_classified(scene, settings) ? classified_tiles(frame, integrator)
                      : settings.mode != Mode::volume  ? mode_tiles(frame)
                                                       : volume_tiles(frame, integrator);
-  result.statistics.hierarchy_made = !had_hierarchy && scene.body().hierarchy.made();
+  result.statistics.hierarchy_made = !had_hierarchy && has_hierarchy(scene);
   result.cancelled = make_tiles(frame, *maker, progress, result.statistics);
   frame.put_surfaces();
   frame.shade_raw(result.statistics);
   result.statistics.rays = frame.pixel_count();
   result.image = std::move(frame.image());
   return result;
+}
+
+}  // namespace
+
+RenderResult render(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+                    const Progress& progress) {
+  check_settings(scene, settings);
+  return on_threads(settings.threads,
+                    [&] { return render_here(scene, camera, settings, progress); });
 }
 
 }  // namespace plume

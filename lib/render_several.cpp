@@ -36,19 +36,9 @@ std::vector<std::string> plan_of(const std::vector<const Scene*>& scenes,
   return plan;
 }
 
-}  // namespace
-
-Bounds visible_bounds(const std::vector<const Scene*>& scenes) {
-  Bounds bounds = scenes.front()->visible_bounds();
-  for (const Scene* scene : scenes) bounds = united(bounds, scene->visible_bounds());
-  return bounds;
-}
-
-RenderResult render(const std::vector<const Scene*>& scenes, const Camera& camera,
-                    const RenderSettings& settings, const Progress& progress) {
-  if (scenes.empty()) throw Error("a picture of no scene: give one at least");
-  if (scenes.size() == 1) return render(*scenes.front(), camera, settings, progress);
-  check_several(scenes, settings);
+// On the threads of the arena that it is called in.
+RenderResult render_here(const std::vector<const Scene*>& scenes, const Camera& camera,
+                         const RenderSettings& settings, const Progress& progress) {
   RenderSettings effective = settings;
   Frame frame(scenes, camera, effective);
   if (frame.channels().whole_rays()) effective.early_termination = 0;
@@ -74,6 +64,23 @@ RenderResult render(const std::vector<const Scene*>& scenes, const Camera& camer
                     statistics.rays_overlapping));
   result.image = std::move(frame.image());
   return result;
+}
+
+}  // namespace
+
+Bounds visible_bounds(const std::vector<const Scene*>& scenes) {
+  Bounds bounds = scenes.front()->visible_bounds();
+  for (const Scene* scene : scenes) bounds = united(bounds, scene->visible_bounds());
+  return bounds;
+}
+
+RenderResult render(const std::vector<const Scene*>& scenes, const Camera& camera,
+                    const RenderSettings& settings, const Progress& progress) {
+  if (scenes.empty()) throw Error("a picture of no scene: give one at least");
+  if (scenes.size() == 1) return render(*scenes.front(), camera, settings, progress);
+  check_several(scenes, settings);
+  return on_threads(settings.threads,
+                    [&] { return render_here(scenes, camera, settings, progress); });
 }
 
 }  // namespace plume

@@ -70,6 +70,12 @@ inline bool asks_for(const std::vector<std::string>& channels, const char* name)
 
 Mode mode_named(const std::string& name);
 
+/// Parts of these options that other commands have as well: which mesh and which field of it; from
+/// where it is seen; by which colours. They are written to `args`, which must outlive the command.
+void add_mesh_options(CLI::App& command, RenderArguments& args);
+void add_camera_options(CLI::App& command, RenderArguments& args);
+void add_color_options(CLI::App& command, RenderArguments& args);
+
 /// Adds all options to the command; they are written to `args`, which must outlive it.
 void add_render_options(CLI::App& command, RenderArguments& args);
 

@@ -20,6 +20,10 @@ bool is_color_map_file(const std::string& transfer_function) {
          std::filesystem::exists(transfer_function);
 }
 
+FittedLook look_fitted_to(const Scene& scene) {
+  return {scene.default_color_map(), scene.default_unit_distance()};
+}
+
 void choose_transfer_function(Scene& scene, const FittedLook& fitted, const RenderArguments& args,
                               const Console& console) {
   ColorMap map = fitted.map;
@@ -180,6 +184,13 @@ Camera turned(const Camera& first, const RenderArguments& args, double turn) {
   orbit(camera, 0, -args.elevation);
   orbit(camera, turn, args.elevation);
   return camera;
+}
+
+std::string describe_camera(const Camera& camera) {
+  return fmt::format("position {} focal point {} view up {} view angle {} parallel scale {}{}",
+                     fmt::join(camera.position, ","), fmt::join(camera.focal_point, ","),
+                     fmt::join(camera.view_up, ","), camera.view_angle, camera.parallel_scale,
+                     camera.parallel ? " (parallel)" : "");
 }
 
 void choose_background(const std::string& text, ImageFileOptions& options) {

@@ -18,6 +18,9 @@ struct FittedLook {
   double unit_distance;
 };
 
+/// Fitted to the scene alone.
+FittedLook look_fitted_to(const Scene& scene);
+
 void choose_transfer_function(Scene& scene, const FittedLook& fitted, const RenderArguments& args,
                               const Console& console);
 
@@ -36,6 +39,9 @@ Camera choose_camera(const Bounds& bounds, const RenderArguments& args, double a
 
 /// That camera `turn` degrees further about view up, as it was before any elevation.
 Camera turned(const Camera& first, const RenderArguments& args, double turn);
+
+/// The camera in one line, for files.
+std::string describe_camera(const Camera& camera);
 
 void choose_background(const std::string& text, ImageFileOptions& options);
 

@@ -142,9 +142,8 @@ class SeriesRenderer {
   std::vector<const Scene*> scenes() const { return others_.scenes_with(scene_.scene()); }
 
   void choose_looks() {
-    const Scene& scene = scene_.scene();
     if (others_.empty())
-      scene_.choose_look({scene.default_color_map(), scene.default_unit_distance()});
+      scene_.choose_look(look_fitted_to(scene_.scene()));
     else
       others_.choose_looks(scene_);
   }
@@ -247,11 +246,7 @@ class SeriesRenderer {
         {"plume:field", scene_.scene().field().name},
         {"plume:mode", args_.mode},
         {"plume:plan", fmt::format("{}", fmt::join(statistics.plan, "; "))},
-        {"plume:camera",
-         fmt::format("position {} focal point {} view up {} view angle {} parallel scale {}{}",
-                     fmt::join(camera.position, ","), fmt::join(camera.focal_point, ","),
-                     fmt::join(camera.view_up, ","), camera.view_angle, camera.parallel_scale,
-                     camera.parallel ? " (parallel)" : "")}};
+        {"plume:camera", describe_camera(camera)}};
     for (const std::string& other : args_.others) lines.emplace_back("plume:with", other);
     if (series_.size() > 1) lines.emplace_back("plume:step", std::to_string(frame.step));
     if (time_) lines.emplace_back("plume:time", fmt::format("{}", *time_));
