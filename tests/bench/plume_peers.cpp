@@ -124,7 +124,8 @@ int run(const Arguments& args) {
   if (args.seven_knots)
     scene.set_transfer_function(seven_knots(scene));
   else
-    command::choose_transfer_function(scene, args.render, console);
+    command::choose_transfer_function(
+        scene, {scene.default_color_map(), scene.default_unit_distance()}, args.render, console);
   peers.transfer_function = scene.transfer_function();
   peers.camera = command::choose_camera(scene.bounds(), args.render, 1);
   peers.size = args.size;
