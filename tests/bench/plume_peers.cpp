@@ -154,6 +154,7 @@ int run(const Arguments& args) {
   add("openvkl", [&] { return openvkl_ways(peers, args.quick); });
 #endif
   PeerTimings timings = args.timings;
+  timings.say = [&](const std::string& line) { console.say(line); };
   timings.one_thread = args.render.threads == 1;
   const std::vector<PeerRow> rows = compare_peers(ways, reference, timings);
   write_whole_file(args.render.output, peer_csv(rows));
