@@ -39,8 +39,7 @@ int main(int argc, char** argv) {
   double range[2];
   values->GetRange(range);
 
-  vtkNew<vtkPlumeVolumeMapper>
-      mapper;  // was: vtkNew<vtkUnstructuredGridVolumeRayCastMapper> mapper;
+  vtkNew<vtkPlumeVolumeMapper> mapper;  // was: vtkUnstructuredGridVolumeRayCastMapper
   mapper->SetInputData(reader->GetOutput());
   vtkNew<vtkVolume> volume;
   volume->SetMapper(mapper);

@@ -1,6 +1,5 @@
 #include <tbb/enumerable_thread_specific.h>
 
-#include <limits>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -15,8 +14,6 @@
 
 namespace plume {
 namespace {
-
-bool is_endless(const Ray& ray) { return ray.t_max == std::numeric_limits<double>::infinity(); }
 
 template <class Walkable>
 using PacketTileOf = PacketTile<typename Walkable::Walker>;
@@ -56,16 +53,15 @@ class PacketTiles : public TileMaker {
     packets.clear();
     // Packets walk whole passages: rays that end inside are walked one by one.
     frame_.for_each_pixel(tile, [&](const PixelPlace& pixel) {
-      const Ray ray = frame_.ray(pixel);
-      if (is_endless(ray))
-        packets.add(ray);
+      if (frame_.sees_endlessly(pixel))
+        packets.add(frame_.ray(pixel));
       else
         twin_.make_pixel(pixel, counts);
     });
     composite(packets, counts);
     std::size_t ray = 0;
     frame_.for_each_pixel(tile, [&](const PixelPlace& pixel) {
-      if (!is_endless(frame_.ray(pixel))) return;
+      if (!frame_.sees_endlessly(pixel)) return;
       const PacketResult result = packets.result(ray++);
       if (result.declined) {
         twin_.make_pixel(pixel, counts);

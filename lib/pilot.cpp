@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "plume/lib/planner.h"
 #include "plume/lib/render_modes.h"
@@ -27,8 +28,9 @@ Pilot::Pilot(const Scene& scene, const Camera& camera, const RenderSettings& ref
   // The aspect ratio need not be met: pixels are pixels.
   width_ = std::max(1, static_cast<int>(std::lround(scale * reference.width)));
   height_ = std::max(1, static_cast<int>(std::lround(scale * reference.height)));
-  small_reference_ = render(scene, camera, small(reference)).image;
-  shade_width_ = shade_width(small_reference_, reference.mode);
+  RenderResult result = render(scene, camera, small(reference));
+  small_reference_ = std::move(result.image);
+  shade_width_ = shade_width(result.statistics);
 }
 
 RenderSettings Pilot::small(RenderSettings settings) const {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "plume/lib/pilot.h"
 #include "plume/lib/render_modes.h"
@@ -55,9 +54,7 @@ const char* name_of(ScalarOrder order) {
   return kNames[static_cast<int>(order)];
 }
 
-bool has_optics(Mode mode) {
-  return mode == Mode::volume || mode == Mode::optical_depth || mode == Mode::depth;
-}
+bool has_optics(Mode mode) { return mode == Mode::volume || mode == Mode::optical_depth; }
 
 // Chooses the order, and how closely its segments are followed.
 void choose_order(const Scene& scene, const Camera& camera, RenderSettings& settings,
@@ -143,8 +140,10 @@ RenderSettings plan_for(const Scene& scene, const Camera& camera, const RenderSe
   double left = max_error;
   if (asked.choose_integrator) plan.integrator = {};
   if (composites && asked.choose_integrator) {
-    plan.scalar_twin = settings.scalar_twin || kPacketError * color > max_error / 4;
-    const double error = color * (plan.scalar_twin ? kScalarError : kPacketError);
+    const double by_packets =
+        color * (is_classified(scene, settings) ? kClassifiedPacketError : kPacketError);
+    plan.scalar_twin = settings.scalar_twin || by_packets > max_error / 4;
+    const double error = plan.scalar_twin ? color * kScalarError : by_packets;
     left -= error;
     reasons.push_back(
         fmt::format("integrator: closed form, exact but for rounding: at most {:.1g}{}", error,
@@ -163,19 +162,10 @@ RenderSettings plan_for(const Scene& scene, const Camera& camera, const RenderSe
   return plan;
 }
 
-double shade_width(const Image& picture, Mode mode) {
-  const ModeInWords& words = in_words(mode);
-  if (words.shade != ShadeBy::gray_from_zero && words.shade != ShadeBy::gray_near_is_white)
-    return 0;
-  const auto& values = picture.channel(words.channel)->values;
-  double low = std::numeric_limits<double>::infinity(), high = -low;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (picture.rgba[4 * i + 3] == 0) continue;
-    low = std::min<double>(low, values[i]);
-    high = std::max<double>(high, values[i]);
-  }
-  if (words.shade == ShadeBy::gray_from_zero) low = std::min(low, 0.0);
-  return high > low ? high - low : 1;
+double shade_width(const RenderStatistics& statistics) {
+  if (!statistics.gray_range) return 0;
+  const auto& [low, high] = *statistics.gray_range;
+  return static_cast<double>(high) - low;
 }
 
 double greatest_difference(const Image& picture, const Image& reference, Mode mode, double width) {

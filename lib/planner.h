@@ -33,6 +33,9 @@ namespace plume {
 /// tests/lib/closed_form_scenes_test.cpp.
 inline constexpr double kPacketError = 1e-5;
 inline constexpr double kScalarError = 2e-6;
+/// With intervals and isosurfaces, packets' places of hits are in single precision, and a highlight
+/// may change much within that: twice the 2e-5 that has been met (docs/evidence.md).
+inline constexpr double kClassifiedPacketError = 4e-5;
 
 /// The settings of the reference: what errors are measured against. `max_error` says how closely it
 /// follows the cells' interpolation.
@@ -44,9 +47,9 @@ RenderSettings reference_settings(RenderSettings settings, double max_error = 0)
 RenderSettings plan_for(const Scene& scene, const Camera& camera, const RenderSettings& settings,
                         std::vector<std::string>& reasons);
 
-/// In a mode that shows a number as a shade of gray: how far apart the numbers are that are shown
-/// as black and as white in this picture. 0 in the other modes.
-double shade_width(const Image& picture, Mode mode);
+/// How far apart the numbers are that a picture shows as black and as white; 0 where it shows no
+/// shades of gray.
+double shade_width(const RenderStatistics& statistics);
 
 /// The greatest difference of a channel between two pictures of a mode: of linear RGBA where
 /// `width` is 0; else of the number in shares of `width` (see shade_width()), and of alpha.

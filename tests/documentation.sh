@@ -5,7 +5,9 @@
 #
 # `./dev test` is not run again: it is what runs this. Blocks that name $PLUME_DATASETS are skipped,
 # loudly, where there is no such directory, and blocks that turn an option PLUME_WITH_... on where the
-# build has it off: it is not for a test to change its licence.
+# build has it off: it is not for a test to change its licence. Pictures that the page shows from a folder
+# of its own name are to be among those that its commands make; KEEP_PICTURES names a directory to
+# copy them to.
 set -euo pipefail
 source_dir=$1 build_dir=$2 page=$3
 work=$(mktemp -d)
@@ -17,11 +19,12 @@ chmod +x dev
 export PLUME_DATASETS=${PLUME_DATASETS:-$source_dir/../shared/datasets}
 
 awk '/^```sh$/ {inside = 1; n++; next} /^```/ {inside = 0} inside {print > ("block" n)}' "$page"
-ran=0
+ran=0 skipped=0
 for block in $(ls block* | sort -V); do
   if grep -q PLUME_DATASETS "$block" && [ ! -d "$PLUME_DATASETS" ]; then
     echo "SKIPPED: no directory $PLUME_DATASETS (set PLUME_DATASETS) for:"
     cat "$block"
+    skipped=1
     continue
   fi
   missing=""
@@ -31,6 +34,7 @@ for block in $(ls block* | sort -V); do
   if [ -n "$missing" ]; then
     echo "SKIPPED: the build is without$missing for:"
     cat "$block"
+    skipped=1
     continue
   fi
   echo "--- $(cat "$block")"
@@ -44,4 +48,13 @@ done
 shopt -s nullglob
 for picture in *.png; do
   [ -s "$picture" ] || { echo "$picture is empty" >&2; exit 1; }
+done
+shown=$(grep -o "]($(basename "$page" .md)/[^)]*\.png)" "$page" | sed 's/.*\///; s/)$//' || true)
+for picture in $shown; do
+  if [ -s "$picture" ]; then
+    [ -z "${KEEP_PICTURES:-}" ] || cp "$picture" "$KEEP_PICTURES/"
+  elif [ $skipped = 0 ]; then
+    echo "$page shows $picture, which its commands do not make" >&2
+    exit 1
+  fi
 done

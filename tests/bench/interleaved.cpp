@@ -5,13 +5,13 @@
 namespace plume::bench {
 
 std::vector<std::vector<double>> take_turns(std::span<const std::function<void()>> tasks,
-                                            int rounds) {
+                                            int rounds, double (*clock)()) {
   std::vector<std::vector<double>> seconds(tasks.size());
   for (int round = 0; round < rounds; ++round)
     for (std::size_t task = 0; task < tasks.size(); ++task) {
-      const double start = thread_seconds();
+      const double start = clock();
       tasks[task]();
-      seconds[task].push_back(thread_seconds() - start);
+      seconds[task].push_back(clock() - start);
     }
   return seconds;
 }

@@ -29,10 +29,11 @@ bool check_scene(const std::string& name, const Mesh& mesh, int size, int rounds
     settings.width = settings.height = size;
     settings.mode = words.mode;
     const double start = wall_seconds();
-    const Image reference = render(scene, camera, reference_settings(settings)).image;
+    const RenderResult right = render(scene, camera, reference_settings(settings));
+    const Image& reference = right.image;
     fmt::print("{:<24}{:<15}{:>9}{:>11}{:>10}{:>9.0f}\n", name, words.name, "0", "", "",
                1e3 * (wall_seconds() - start));
-    const double width = shade_width(reference, words.mode);
+    const double width = shade_width(right.statistics);
     for (const double asked : kTolerances) {
       settings.tolerance = Tolerance{asked};
       std::vector<double> planning, all;

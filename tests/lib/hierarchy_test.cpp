@@ -134,6 +134,22 @@ TEST(HierarchyPictures, AnIsovalueChangesWithoutARebuild) {
   EXPECT_EQ(made, 1);
 }
 
+// A field that has changed is looked for anew: ranges are those of its values.
+TEST(HierarchyPictures, OfANewFieldAreTheWalkers) {
+  const Mesh mesh = generate("box-tetrahedra", {12, 0.2, 3});
+  SceneOptions options;
+  options.field.name = "radius";
+  options.keep_field_order = true;
+  Scene scene(mesh, options);
+  const Camera camera = named_view("iso", scene.bounds());
+  for (const char* field : {"radius", "waves", "linear"}) {
+    scene.set_field(mesh, {field, {}});
+    scene.set_classification(surfaces({{at(scene, 0.6f), 1, {1, 1, 1}}}));
+    const RenderStatistics statistics = expect_same(scene, camera, small(), field);
+    EXPECT_GT(statistics.rays_searched, statistics.rays / 2) << field;
+  }
+}
+
 // Not made, nor used, where something else is to be seen; the plan says why.
 TEST(HierarchyPictures, AreMadeWhereOnlyIsosurfacesAreToBeSeen) {
   Scene scene(generate("box-tetrahedra", {8, 0.2, 3}));

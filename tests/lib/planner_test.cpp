@@ -36,8 +36,9 @@ TEST(Planner, KeepsToTheToleranceInEveryMode) {
     for (const ModeInWords& words : modes_in_words()) {
       SCOPED_TRACE(std::string(form) + ", " + words.name);
       RenderSettings settings = settings_of(words.mode);
-      const Image reference = render(scene, camera, reference_settings(settings)).image;
-      const double width = shade_width(reference, words.mode);
+      const RenderResult right = render(scene, camera, reference_settings(settings));
+      const Image& reference = right.image;
+      const double width = shade_width(right.statistics);
       for (const double asked : {1e-2, 1e-4}) {
         settings.tolerance = Tolerance{asked};
         const RenderResult result = render(scene, camera, settings);
