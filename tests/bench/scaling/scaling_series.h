@@ -32,6 +32,9 @@ struct ScalingSeries {
 /// least and the greatest exponent between neighbouring points.
 std::string as_markdown(const ScalingSeries& series);
 
+/// A table of the exponents of all series, and what they are fitted over.
+std::string exponents_as_markdown(const std::vector<ScalingSeries>& all);
+
 /// One line a value: axis,series,x,quantity,value. No header.
 std::string as_csv(const ScalingSeries& series);
 
