@@ -7,7 +7,7 @@
 # Other renderers are measured, too, on the same rays, where BUILD/bin/plume_peers is built. Needs the meshes of
 # datasets/CATALOGUE.md, 8 GB of memory and 1 GB of temporary files (TMPDIR) for box-10M, and gnuplot. From the environment:
 # PLUME_DATASETS; CHART_SIZE, pixels a side (512); CHART_ROUNDS, frames of each way (7); CHART_THREADS (1, whose time
-# on the processor is taken); CHART_CELLS, along an edge of the box (118: ten million tetrahedra).
+# on the processor is taken); CHART_PEERS, further options for plume_peers, such as "--only embree"; CHART_CELLS, along an edge of the box (118: ten million tetrahedra).
 set -euo pipefail
 source_dir=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 [ $# -ge 2 ] || { sed -n '2,11s/^# \{0,1\}//p' "${BASH_SOURCE[0]}" >&2; exit 2; }
@@ -38,7 +38,7 @@ chart() {
   set -- "$@" --tf "$work/seven.json"
   echo "charts.sh: $name" >&2
   if [ -x "$bin/plume_peers" ]; then
-    "${on_a_screen[@]}" "$bin/plume_peers" "$mesh" "$@" --size "$size" --threads "$threads" --rounds "$rounds" ${peers_options:-} \
+    "${on_a_screen[@]}" "$bin/plume_peers" "$mesh" "$@" --size "$size" --threads "$threads" --rounds "$rounds" ${peers_options:-} ${CHART_PEERS:-} \
       -o "$work/peers.csv" >"$work/peers.txt"
     # Its own few of ours are measured better below.
     awk -F, '$2 != "plume"' "$work/peers.csv" >"$work/others.csv"
