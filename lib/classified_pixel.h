@@ -78,8 +78,8 @@ class ClassifiedPixel {
     });
   }
 
-  /// Segments are left out before the next one that are empty and on which no isosurface is
-  /// crossed. Requires that there are no intervals.
+  /// Segments are left out before the next one that are empty, outside of all intervals, and on
+  /// which no isosurface is crossed.
   void pass_over() { end_ = -std::numeric_limits<double>::infinity(); }
 
   Compositor compositor;

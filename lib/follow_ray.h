@@ -5,6 +5,7 @@
 #include "plume/lib/frame.h"
 #include "plume/lib/pixel.h"
 #include "plume/lib/scene_body.h"
+#include "plume/traverse/trace_ranges.h"
 
 namespace plume {
 
@@ -15,6 +16,27 @@ TraceResult trace_clipped(const Frame& frame, const Walkable<Walker>& walkable, 
   if (!clip(ray, frame.settings().clip_planes)) return {};
   return trace(walkable.mesh, walkable.boundary, ray, visit,
                {frame.settings().order, frame.tolerance()});
+}
+
+/// Passes over the frame's empty space, where there is one. A visitor may say for itself what still
+/// `matters(least, greatest)`, and be told to `pass_over()` what is left out.
+template <class Visit>
+TraceResult trace_clipped(const Frame& frame, const Walkable<RectilinearWalker>& walkable, Ray ray,
+                          Visit&& visit) {
+  if (!clip(ray, frame.settings().clip_planes)) return {};
+  const ScalarRequest request{frame.settings().order, frame.tolerance()};
+  const std::optional<EmptySpace>& space = frame.empty_space();
+  if (!space) return trace(walkable.mesh, walkable.boundary, ray, visit, request);
+  auto matters = [&](float least, float greatest) {
+    if constexpr (requires { visit.matters(least, greatest); })
+      return visit.matters(least, greatest);
+    else
+      return space->visible->meet(least, greatest);
+  };
+  auto pass_over = [&] {
+    if constexpr (requires { visit.pass_over(); }) visit.pass_over();
+  };
+  return trace_ranges(walkable.mesh, *space->tree, ray, matters, visit, pass_over, request.order);
 }
 
 /// Follows the ray of a pixel, gives its segments to `consumer` until that returns false, and fills

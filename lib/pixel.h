@@ -106,6 +106,8 @@ struct MaximumPixel {
                                      : polynomial_of(segment).maximum());
     return true;
   }
+  /// Whether a value between these may be greater.
+  bool matters(float, float greatest) const { return !(greatest <= maximum); }
   bool seen() const { return maximum > -std::numeric_limits<float>::infinity(); }
   double value() const { return seen() ? maximum : std::numeric_limits<float>::quiet_NaN(); }
 };
@@ -120,6 +122,8 @@ struct MinimumPixel {
                                      : polynomial_of(segment).minimum());
     return true;
   }
+  /// Whether a value between these may be less.
+  bool matters(float least, float) const { return !(least >= minimum); }
   bool seen() const { return minimum < std::numeric_limits<float>::infinity(); }
   double value() const { return seen() ? minimum : std::numeric_limits<float>::quiet_NaN(); }
 };

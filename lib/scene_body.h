@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "plume/lib/gradient_field.h"
-#include "plume/lib/lazy_hierarchy.h"
+#include "plume/lib/made_once.h"
 #include "plume/lib/scene.h"
+#include "plume/mesh/cell_hierarchy.h"
+#include "plume/mesh/range_tree.h"
 #include "plume/preint/integrator_cache.h"
 #include "plume/traverse/opaque_triangles.h"
 #include "plume/traverse/trace.h"
@@ -59,8 +61,9 @@ struct Scene::Body {
   std::optional<GradientField> gradients;
   mutable IntegratorCache integrators;  // a frame without a new transfer function builds no table
   std::vector<SceneSurface> surfaces;
-  /// Of tetrahedra, where a picture needs it.
-  LazyHierarchy hierarchy;
+  /// Where a picture needs them: of tetrahedra, and of a rectilinear grid.
+  MadeOnce<CellHierarchy> hierarchy;
+  MadeOnce<RangeTree> ranges;
 };
 
 }  // namespace plume

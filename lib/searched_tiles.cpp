@@ -153,7 +153,8 @@ std::optional<std::string> no_search(const Scene& scene, const RenderSettings& s
 
 std::unique_ptr<TileMaker> searched_tiles(Frame& frame, const Integrator& integrator) {
   const Tets& walkable = *std::get<std::unique_ptr<Tets>>(frame.scene().body().walkable);
-  const CellHierarchy& hierarchy = frame.scene().body().hierarchy.of(walkable.mesh);
+  const CellHierarchy& hierarchy =
+      frame.scene().body().hierarchy.get([&] { return make_cell_hierarchy(walkable.mesh); });
   if (frame.settings().mode == Mode::maximum)
     return std::make_unique<ExtremeTiles<MaximumPixel>>(frame, walkable, hierarchy);
   if (frame.settings().mode == Mode::minimum)

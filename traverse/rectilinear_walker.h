@@ -120,6 +120,47 @@ class RectilinearWalker {
     find_exit();
   }
 
+  /// The cell's index along each of the mesh's axes.
+  std::array<std::uint32_t, 3> indices() const {
+    std::array<std::uint32_t, 3> indices;
+    for (const Axis& axis : axes_) indices[axis.number] = index_of(axis);
+    return indices;
+  }
+  /// The axis, in the mesh's order, whose plane was crossed last.
+  std::size_t entry_axis() const { return axes_[entry_].number; }
+
+  /// Goes on until a cell's index along some axis is no longer below `end` nor at least `begin`, of
+  /// that axis of the mesh: where advance(), again and again, would be, bit for bit. False, and
+  /// nowhere, where the walk ends before. Requires that the cell's indices are between them.
+  bool skip(const std::array<std::uint32_t, 3>& begin, const std::array<std::uint32_t, 3>& end) {
+    // The far plane of each axis; of crossings at the same place, the first in the axes' order.
+    std::array<std::uint32_t, 3> left;  // cells from this one to the far plane
+    std::size_t first = 0;
+    double t_out = kInfinity;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const Axis& axis = axes_[a];
+      const std::uint32_t index = index_of(axis);
+      left[a] = axis.step > 0 ? end[axis.number] - index : index - begin[axis.number] + 1;
+      const double t = axis.across ? kInfinity : t_ahead(axis, left[a]);
+      if (t < t_out) t_out = t, first = a;
+    }
+    if (!(t_out < end_)) return false;
+    for (std::size_t a = 0; a < 3; ++a) {
+      if (a == first) {
+        cross(axes_[a], left[a]);
+      } else if (!axes_[a].across) {
+        // Planes at the same place are crossed before where the axis comes before.
+        const std::uint32_t crossed = a < first ? planes_ahead<true>(axes_[a], left[a], t_out)
+                                                : planes_ahead<false>(axes_[a], left[a], t_out);
+        if (crossed > 0) cross(axes_[a], crossed);
+      }
+    }
+    t_in_ = t_out;
+    entry_ = first;
+    find_exit();
+    return true;
+  }
+
   /// What packets take over of a walk: the axes in the order in which ties are resolved, the plane
   /// ahead along each, and the cell's corner that is behind along all of them.
   const std::array<Axis, 3>& axes() const { return axes_; }
@@ -248,6 +289,53 @@ class RectilinearWalker {
   static void look_ahead(Axis& axis) {
     axis.plane += axis.plane == axis.last ? 0 : axis.step;
     axis.t_after = (*axis.plane - axis.origin) * axis.per_direction;
+  }
+
+  std::uint32_t index_of(const Axis& axis) const {
+    return static_cast<std::uint32_t>(axis.per_width - mesh_.axes[axis.number].per_width.data());
+  }
+
+  // Where the ray crosses the n-th plane ahead, n > 0.
+  double t_ahead(const Axis& axis, std::uint32_t n) const {
+    if (n == 1) return axis.t_next;
+    const double* const plane = plane_ahead(axis) + static_cast<std::ptrdiff_t>(n - 1) * axis.step;
+    return (*plane - axis.origin) * axis.per_direction;
+  }
+
+  // How many planes ahead, less than `limit`, are crossed before t, or at it where kOrAt.
+  template <bool kOrAt>
+  std::uint32_t planes_ahead(const Axis& axis, std::uint32_t limit, double t) const {
+    auto is_crossed = [&](std::uint32_t n) {
+      const double place = t_ahead(axis, n);
+      return kOrAt ? place <= t : place < t;
+    };
+    std::uint32_t crossed = 0, open = limit;
+    for (std::uint32_t step = 1; crossed + step < open; step *= 2) {
+      if (!is_crossed(crossed + step)) {
+        open = crossed + step;
+        break;
+      }
+      crossed += step;
+    }
+    while (open - crossed > 1) {
+      const std::uint32_t middle = crossed + (open - crossed) / 2;
+      (is_crossed(middle) ? crossed : open) = middle;
+    }
+    return crossed;
+  }
+
+  // Crosses the next n planes, n > 0, of which the last is not the last of all.
+  void cross(Axis& axis, std::uint32_t n) {
+    const std::ptrdiff_t cells = static_cast<std::ptrdiff_t>(n) * axis.step;
+    const double* const reached = plane_ahead(axis) + (cells - axis.step);
+    axis.t_behind = t_ahead(axis, n);
+    axis.t_next = t_ahead(axis, n + 1);
+    axis.per_width += cells;
+    axis.rate = axis.speed * *axis.per_width;
+    axis.plane = reached + axis.step;
+    look_ahead(axis);
+    cell_ += axis.cell_step * n;
+    near_ += axis.point_step * n;
   }
 
   static double behind(const Axis& axis) { return axis.across ? -kInfinity : axis.t_behind; }

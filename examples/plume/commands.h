@@ -7,6 +7,7 @@ namespace plume::command {
 
 void add_render(CLI::App& app);
 void add_info(CLI::App& app);
+void add_chart(CLI::App& app);
 void add_generate(CLI::App& app);
 void add_tetrahedralize(CLI::App& app);
 

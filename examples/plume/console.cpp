@@ -29,6 +29,11 @@ std::function<bool(double)> Console::progress_bar() const {
   };
 }
 
+void Console::progress_line(const std::string& line) const {
+  if (!quiet_ && isatty(STDERR_FILENO) != 0)
+    std::cerr << fmt::format("\r{:.100}\033[K", line) << std::flush;
+}
+
 std::string with_separators(std::size_t number) {
   const std::string digits = std::to_string(number);
   std::string text;

@@ -16,6 +16,9 @@ class Console {
   /// A progress bar for render(), none where standard error is no terminal or `quiet`.
   std::function<bool(double)> progress_bar() const;
 
+  /// A line that takes the place of the one before, empty to clear it; likewise.
+  void progress_line(const std::string& line) const;
+
  private:
   bool quiet_;
 };

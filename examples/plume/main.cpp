@@ -17,6 +17,7 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   plume::command::add_render(app);
   plume::command::add_info(app);
+  plume::command::add_chart(app);
   plume::command::add_generate(app);
   plume::command::add_tetrahedralize(app);
   try {

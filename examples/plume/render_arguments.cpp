@@ -5,6 +5,8 @@
 namespace plume::command {
 namespace {
 
+constexpr const char* kMeshFiles = "The mesh: .vtu .vtk .vts .cgns .case .foam .ex2 ...";
+
 std::vector<std::string> mode_names() {
   std::vector<std::string> names;
   for (const ModeInWords& words : modes_in_words()) names.emplace_back(words.name);
@@ -19,16 +21,9 @@ Mode mode_named(const std::string& name) {
   return Mode::volume;  // CLI11 has checked the name
 }
 
-void add_render_options(CLI::App& command, RenderArguments& args) {
-  command
-      .add_option("mesh", args.mesh,
-                  "The mesh: .vtu .vtk .vts .cgns .case .foam .ex2 ..., or several by a pattern "
-                  "in quotes: 'flow_*.vtu', 'flow_%04d.vtu'")
-      ->required();
+void add_mesh_options(CLI::App& command, RenderArguments& args) {
+  command.add_option("mesh", args.mesh, kMeshFiles)->required();
   command.add_option("--solution", args.solution, "Plot3D: the q file of the grid");
-  command.add_option("-o,--output", args.output,
-                     "The picture: .png or .exr; of several, with a place for their number from "
-                     "0, such as frame_%04d.png (picture.png)");
   command.add_option("--field", args.field,
                      "What to show: NAME, NAME:component or NAME:magnitude (the active field)");
   command.add_option("--association", args.association, "Where a name is on both: point or cell")
@@ -37,14 +32,11 @@ void add_render_options(CLI::App& command, RenderArguments& args) {
       .add_option("--cell-data", args.cell_data,
                   "Values of cells: constant in each, or averaged to the points (constant)")
       ->check(CLI::IsMember(names_of(kCellData)));
-  command.add_option("--time,--time-step", args.time,
-                     "Which steps: all, last, a number from 0, or FIRST:LAST[:STRIDE] (last)");
-  command.add_flag("--no-read-ahead", args.no_read_ahead,
-                   "Read a step when it is needed, not while the one before is rendered: holds one "
-                   "mesh instead of two");
   command.add_flag("--merge-points", args.merge_points,
                    "Merge coincident points of neighbouring blocks");
-  command.add_option("--size", args.size, "Pixels: WIDTHxHEIGHT (1024x768)");
+}
+
+void add_camera_options(CLI::App& command, RenderArguments& args) {
   CLI::Option* view = command.add_option(
       "--view", args.view, "Look along +x -x +y -y +z -z, or iso; fitted to the mesh (iso)");
   command
@@ -53,14 +45,12 @@ void add_render_options(CLI::App& command, RenderArguments& args) {
       ->excludes(view);
   command.add_option("--azimuth", args.azimuth, "Turn the camera around view up, degrees");
   command.add_option("--elevation", args.elevation, "Turn the camera upwards, degrees");
-  command
-      .add_option("--orbit", args.orbit,
-                  "Turn the camera once around view up in so many frames, over which time steps, "
-                  "where there are several, are spread")
-      ->check(CLI::PositiveNumber);
   command.add_option("--zoom", args.zoom, "Enlarge by this factor (1)");
   command.add_option("--view-angle", args.view_angle, "Degrees, bottom to top (30)");
   command.add_flag("--parallel", args.parallel, "Parallel projection");
+}
+
+void add_color_options(CLI::App& command, RenderArguments& args) {
   command.add_option("--tf", args.transfer_function,
                      "ParaView's JSON colour map, or a preset: cool-warm viridis inferno turbo "
                      "gray rainbow (fitted to the field)");
@@ -70,6 +60,40 @@ void add_render_options(CLI::App& command, RenderArguments& args) {
   command
       .add_option("--unit-distance", args.unit_distance,
                   "World length over which opacity applies (a tenth of the mesh's diagonal)")
+      ->check(CLI::PositiveNumber);
+}
+
+void add_render_options(CLI::App& command, RenderArguments& args) {
+  add_mesh_options(command, args);
+  command.get_option("mesh")->description(
+      std::string(kMeshFiles) +
+      ", or several by a pattern in quotes: 'flow_*.vtu', 'flow_%04d.vtu'");
+  command
+      .add_option(
+          "--with", args.others,
+          "Another mesh in the same picture: FILE[:FIELD], by default of the field that the "
+          "first shows, which then has one look in all (repeatable)")
+      ->allow_extra_args(false);
+  command
+      .add_option("--overlap", args.overlap,
+                  "Where meshes are in one place: add, both are seen; first, the one named first; "
+                  "refuse (add)")
+      ->check(CLI::IsMember(names_of(kOverlaps)));
+  add_camera_options(command, args);
+  add_color_options(command, args);
+  command.add_option("-o,--output", args.output,
+                     "The picture: .png or .exr; of several, with a place for their number from "
+                     "0, such as frame_%04d.png (picture.png)");
+  command.add_option("--time,--time-step", args.time,
+                     "Which steps: all, last, a number from 0, or FIRST:LAST[:STRIDE] (last)");
+  command.add_flag("--no-read-ahead", args.no_read_ahead,
+                   "Read a step when it is needed, not while the one before is rendered: holds one "
+                   "mesh instead of two");
+  command.add_option("--size", args.size, "Pixels: WIDTHxHEIGHT (1024x768)");
+  command
+      .add_option("--orbit", args.orbit,
+                  "Turn the camera once around view up in so many frames, over which time steps, "
+                  "where there are several, are spread")
       ->check(CLI::PositiveNumber);
   command
       .add_option("--iso", args.isosurfaces,

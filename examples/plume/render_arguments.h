@@ -19,7 +19,8 @@ struct RenderArguments {
   std::string interval_form = "exponential";
   std::string interval_way = "split";
   std::vector<std::string> channels, isosurfaces, intervals, lights, clip_planes, surfaces, walls;
-  std::string material, clip_box, time, gray_range;
+  std::vector<std::string> others;  // --with
+  std::string material, clip_box, time, gray_range, overlap = "add";
   double azimuth = 0, elevation = 0, zoom = 1, opacity_scale = 1, view_angle = 0;
   double unit_distance = 0;
   std::optional<double> early_termination, tolerance;
@@ -41,6 +42,8 @@ inline const std::vector<std::pair<std::string, IntervalForm>> kIntervalForms{
     {"exponential", IntervalForm::exponential}, {"linear", IntervalForm::linear}};
 inline const std::vector<std::pair<std::string, IntervalWay>> kIntervalWays{
     {"split", IntervalWay::split}, {"table", IntervalWay::table}};
+inline const std::vector<std::pair<std::string, Overlap>> kOverlaps{
+    {"add", Overlap::add}, {"first", Overlap::first}, {"refuse", Overlap::refuse}};
 inline const std::vector<std::pair<std::string, ScalarOrder>> kOrders{
     {"1", ScalarOrder::linear},
     {"2", ScalarOrder::quadratic},
@@ -66,6 +69,12 @@ inline bool asks_for(const std::vector<std::string>& channels, const char* name)
 }
 
 Mode mode_named(const std::string& name);
+
+/// Parts of these options that other commands have as well: which mesh and which field of it; from
+/// where it is seen; by which colours. They are written to `args`, which must outlive the command.
+void add_mesh_options(CLI::App& command, RenderArguments& args);
+void add_camera_options(CLI::App& command, RenderArguments& args);
+void add_color_options(CLI::App& command, RenderArguments& args);
 
 /// Adds all options to the command; they are written to `args`, which must outlive it.
 void add_render_options(CLI::App& command, RenderArguments& args);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "plume/mesh/error.h"
+#include "plume/tests/bench/empty_space_frames.h"
 #include "plume/tests/bench/hexahedra_frames.h"
 #include "plume/tests/bench/hierarchy_frames.h"
 #include "plume/tests/bench/interval_frames.h"
@@ -24,9 +25,11 @@ constexpr const char* kHelp = R"(plume_frame_bench: whole frames, from the rays 
   --tolerance      what is asked for, what the planner chooses, and what that comes to, in all modes
   --hierarchy      an opaque isosurface through the hierarchy of cells against walking to it, of
                    10 million tetrahedra: only where it is asked for
-                   all but that where none is asked for
+  --empty-space    passing over what is not seen of a rectilinear grid against walking through it:
+                   only where it is asked for
+                   all but these two where none is asked for
   --rounds=N       how many frames each (5, with two threads 7); medians are reported
-  --cells=N        of the hierarchy's box, along each side (118)
+  --cells=N        of the hierarchy's box (118) and of the rectilinear grid (256), along each side
   --size=N         pixels along each side (512, with two threads 1024)
   --pictures=DIR   writes the pictures that are compared with VTK's, as PNG files
 The blunt fin is read from the directory PLUME_DATASETS, by default ../shared/datasets.
@@ -43,7 +46,7 @@ bool take(const std::string& argument, const std::string& name, int& value) {
 
 int main(int argc, char** argv) {
   bool peers = false, threads = false, hexahedra = false, intervals = false, tolerance = false;
-  bool hierarchy = false;
+  bool hierarchy = false, empty_space = false;
   int rounds = 0, size = 0, cells = 0;
   std::string pictures;
   for (int i = 1; i < argc; ++i) {
@@ -56,6 +59,8 @@ int main(int argc, char** argv) {
       hexahedra = true;
     else if (argument == "--hierarchy")
       hierarchy = true;
+    else if (argument == "--empty-space")
+      empty_space = true;
     else if (argument == "--intervals")
       intervals = true;
     else if (argument == "--tolerance")
@@ -68,21 +73,22 @@ int main(int argc, char** argv) {
       return argument == "--help" ? 0 : 2;
     }
   }
-  if (!peers && !threads && !hexahedra && !intervals && !tolerance && !hierarchy)
+  if (!peers && !threads && !hexahedra && !intervals && !tolerance && !hierarchy && !empty_space)
     peers = threads = hexahedra = intervals = tolerance = true;
   plume::bench::PeerFrameOptions peer_options;
   plume::bench::HexahedraFrameOptions hexahedra_options;
   plume::bench::IntervalFrameOptions interval_options;
   plume::bench::ThreadScalingOptions thread_options;
   plume::bench::HierarchyFrameOptions hierarchy_options;
+  plume::bench::EmptySpaceOptions empty_options;
   peer_options.pictures = pictures;
   if (rounds > 0)
     peer_options.rounds = thread_options.rounds = hexahedra_options.rounds =
-        interval_options.rounds = hierarchy_options.rounds = rounds;
+        interval_options.rounds = hierarchy_options.rounds = empty_options.rounds = rounds;
   if (size > 0)
     peer_options.size = thread_options.size = hexahedra_options.size = interval_options.size =
-        hierarchy_options.size = size;
-  if (cells > 0) hierarchy_options.cells = cells;
+        hierarchy_options.size = empty_options.size = size;
+  if (cells > 0) hierarchy_options.cells = empty_options.cells = cells;
   try {
     bool good = true;
     if (peers) good = plume::bench::compare_peer_frames(peer_options) && good;
@@ -92,6 +98,7 @@ int main(int argc, char** argv) {
       good = plume::bench::compare_orders(hexahedra_options) && good;
     }
     if (hierarchy) good = plume::bench::compare_isosurfaces(hierarchy_options) && good;
+    if (empty_space) good = plume::bench::compare_empty_space(empty_options) && good;
     if (intervals) {
       good = plume::bench::compare_with_volume_alone(interval_options) && good;
       plume::bench::compare_ways(interval_options);
