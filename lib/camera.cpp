@@ -115,6 +115,10 @@ PixelRays::PixelRays(const Camera& camera, int width, int height)
   for (const Vector& v : {camera.position, camera.focal_point, camera.view_up})
     if (!std::isfinite(length(v)))
       throw Error(fmt::format("camera: ({}, {}, {}) is not finite", v[0], v[1], v[2]));
+  for (const double center : camera.window_center)
+    if (!std::isfinite(center))
+      throw Error(fmt::format("camera: the window centre ({}, {}) is not finite",
+                              camera.window_center[0], camera.window_center[1]));
   forward_ = normalized(sum(camera.focal_point, -1, camera.position));
   if (!(length(forward_) > 0))
     throw Error(fmt::format("camera: the position ({}, {}, {}) is the focal point",
@@ -140,8 +144,8 @@ PixelRays::PixelRays(const Camera& camera, int width, int height)
 }
 
 Ray PixelRays::operator()(double x, double y) const {
-  const double across = (2 * x / pixels_x_ - 1) * half_width_;
-  const double upward = (1 - 2 * y / pixels_y_) * half_height_;
+  const double across = (2 * x / pixels_x_ - 1 + camera_.window_center[0]) * half_width_;
+  const double upward = (1 - 2 * y / pixels_y_ + camera_.window_center[1]) * half_height_;
   Ray ray;
   if (camera_.parallel) {
     ray.origin = sum(sum(camera_.position, across, right_), upward, up_);

@@ -21,6 +21,9 @@ struct Camera {
   bool parallel = false;
   /// Half of the picture's height in world units, > 0. Parallel projection only.
   double parallel_scale = 1;
+  /// Where the middle of the picture is, in halves of its width and height to the right of the line
+  /// of sight and above it: off the middle for a part of a larger picture.
+  std::array<double, 2> window_center{0, 0};
 };
 
 /// A camera that looks along `direction` at the centre of `bounds` and sees just all of them, with

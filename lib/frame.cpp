@@ -18,14 +18,17 @@ constexpr std::array<Frame::TilePixel, kTile* kTile> Frame::kTileOrder = [] {
   return order;
 }();
 
-Frame::Frame(const Scene& scene, const Camera& camera, const RenderSettings& settings)
-    : scene_(scene),
+Frame::Frame(std::vector<const Scene*> scenes, const Camera& camera, const RenderSettings& settings)
+    : scenes_(std::move(scenes)),
       settings_(settings),
       window_(settings.window.value_or(PixelWindow{0, 0, settings.width, settings.height})),
       rays_(camera, settings.width, settings.height),
-      optical_depth_(scene.transfer_function()),
+      optical_depth_(scene().transfer_function()),
       tolerance_(settings.scalar_tolerance *
-                 (static_cast<double>(scene.field().high) - scene.field().low)) {
+                 (static_cast<double>(scene().field().high) - scene().field().low)) {
+  Bounds bounds = scene().bounds();
+  for (const Scene* other : scenes_) bounds = united(bounds, other->bounds());
+  gap_ = 1e-6 * bounds.diagonal();
   image_.width = window_.width;
   image_.height = window_.height;
   image_.rgba.assign(4 * pixel_count(), 0);
@@ -95,7 +98,7 @@ void Frame::shade_raw(RenderStatistics& statistics) {
   const ShadeBy by = in_words(settings_.mode).shade;
   if (by == ShadeBy::transfer_function) {
     for_each_seen([&](float value, float* rgba) {
-      const Optics optics = scene_.transfer_function().at(value);
+      const Optics optics = scene().transfer_function().at(value);
       std::copy(optics.color.begin(), optics.color.end(), rgba);
     });
     return;

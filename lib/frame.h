@@ -34,7 +34,7 @@ struct PixelPlace {
 /// What rays came to, for the statistics.
 struct Counts {
   std::uint64_t hit = 0, entries = 0, cells = 0, lost = 0, surfaces = 0, visits = 0;
-  std::uint64_t in_packets = 0, searched = 0;
+  std::uint64_t in_packets = 0, searched = 0, overlapping = 0;
 
   void add(const TraceResult& trace) {
     hit += trace.entries > 0 ? 1 : 0;
@@ -59,9 +59,14 @@ struct ChannelPlaces {
 /// check_settings() lets pass; keeps references to the scene and the settings.
 class Frame {
  public:
-  Frame(const Scene& scene, const Camera& camera, const RenderSettings& settings);
+  Frame(const Scene& scene, const Camera& camera, const RenderSettings& settings)
+      : Frame(std::vector{&scene}, camera, settings) {}
+  /// Of several scenes, at least one.
+  Frame(std::vector<const Scene*> scenes, const Camera& camera, const RenderSettings& settings);
 
-  const Scene& scene() const { return scene_; }
+  /// The only one, or the first of several.
+  const Scene& scene() const { return *scenes_.front(); }
+  const std::vector<const Scene*>& scenes() const { return scenes_; }
   const RenderSettings& settings() const { return settings_; }
   const ChannelPlaces& channels() const { return channels_; }
   /// Of the volume's transfer function: what channels and modes of optical depth ask.
@@ -71,7 +76,7 @@ class Frame {
   /// Segments farther apart than this, in world units, are in different passages as far as
   /// intervals and isosurfaces are concerned. Places on the faces of blocks that touch differ by
   /// rounding, which is some 1e-7 of the mesh.
-  double gap() const { return 1e-6 * scene_.bounds().diagonal(); }
+  double gap() const { return gap_; }
   Image& image() { return image_; }
   std::size_t pixel_count() const {
     return static_cast<std::size_t>(window_.width) * static_cast<std::size_t>(window_.height);
@@ -137,12 +142,12 @@ class Frame {
   std::size_t channel_place(const std::string& name);
   std::optional<std::size_t> wanted(const std::string& name);
 
-  const Scene& scene_;
+  const std::vector<const Scene*> scenes_;
   const RenderSettings& settings_;
   const PixelWindow window_;  // all of the picture, where none was asked for
   PixelRays rays_;
   OpticalDepth optical_depth_;
-  double tolerance_;
+  double tolerance_, gap_;
   Image image_;
   OpaquePixels opaque_;
   std::optional<EmptySpace> empty_space_;

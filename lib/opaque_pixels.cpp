@@ -44,7 +44,9 @@ std::array<float, 3> color_at(const SceneSurface& surface, const TriangleHit& hi
 
 OpaquePixels find_opaque_pixels(const Frame& frame) {
   OpaquePixels opaque;
-  const auto& surfaces = frame.scene().body().surfaces;
+  std::vector<const SceneSurface*> surfaces;
+  for (const Scene* scene : frame.scenes())
+    for (const SceneSurface& surface : scene->body().surfaces) surfaces.push_back(&surface);
   const auto& depth_limit = frame.settings().depth_limit;
   if (surfaces.empty() && depth_limit.empty()) return opaque;
   opaque.limits.assign(frame.pixel_count(), std::numeric_limits<double>::infinity());
@@ -55,10 +57,10 @@ OpaquePixels find_opaque_pixels(const Frame& frame) {
     double& limit = opaque.limits[pixel.index];
     Ray ray = frame.ray(pixel);
     if (!depth_limit.empty()) limit = ray.t_max = depth_limit[frame.index_in_picture(pixel)];
-    for (const SceneSurface& surface : surfaces)
-      if (const auto hit = surface.index.first_hit(ray)) {
+    for (const SceneSurface* surface : surfaces)
+      if (const auto hit = surface->index.first_hit(ray)) {
         limit = ray.t_max = hit->t;
-        opaque.colors[pixel.index] = color_at(surface, *hit, lighting, ray);
+        opaque.colors[pixel.index] = color_at(*surface, *hit, lighting, ray);
       }
   };
   tbb::parallel_for(tbb::blocked_range<int>(0, across * frame.tiles_down()),

@@ -46,6 +46,20 @@ enum class Mode : std::uint8_t {
   cell_count,
 };
 
+/// What is seen where several meshes of a picture are in one place.
+enum class Overlap : std::uint8_t {
+  /// Both: their extinction and their emission add up, as those of two fluids that mix. The order
+  /// of the meshes does not matter.
+  add,
+  /// That of the scene named first, as in a mesh whose own parts overlap: for meshes that describe
+  /// one fluid twice, such as overset grids, where no length is to count twice.
+  first,
+  /// Nothing: render() throws Error, which names the meshes, a pixel and the distances between
+  /// which
+  /// both are. What rounding does where meshes touch, up to 1e-6 of the diagonal, is no overlap.
+  refuse,
+};
+
 /// A part of a picture, in pixels from its top left corner.
 struct PixelWindow {
   int x = 0;       ///< of its first column
@@ -111,6 +125,8 @@ struct RenderSettings {
   /// for comparison. Packets take the same way through the mesh, and pictures differ by less than
   /// 1e-5; those through the hierarchy not at all.
   bool scalar_twin = false;
+  /// Read where several scenes are rendered.
+  Overlap overlap = Overlap::add;
   /// Modes in shades of gray: the numbers that run from one end of the shades to the other, low
   /// below high; numbers beyond are as bright as the nearer end. By default what the mode says, of
   /// this picture: to fix it is for pictures that are compared, or shown one after the other.
@@ -138,8 +154,10 @@ struct RenderStatistics {
   std::uint64_t rays_searched = 0;
   /// Whether that hierarchy was made for this picture: once for each scene that needs it.
   bool hierarchy_made = false;
-  std::uint64_t surfaces = 0;   ///< isosurfaces crossed, before rays ended
-  std::uint64_t visits = 0;     ///< to interval volumes, before rays ended
+  std::uint64_t surfaces = 0;  ///< isosurfaces crossed, before rays ended
+  std::uint64_t visits = 0;    ///< to interval volumes, before rays ended
+  /// Of several scenes: rays that met places in more than one mesh, before they ended.
+  std::uint64_t rays_overlapping = 0;
   double seconds_planning = 0;  ///< spent on finding a plan for a tolerance
   /// The order that was taken: the settings', or the plan's.
   ScalarOrder order = ScalarOrder::linear;
@@ -167,5 +185,24 @@ using Progress = std::function<bool(double)>;
 /// the value.
 RenderResult render(const Scene& scene, const Camera& camera, const RenderSettings& settings = {},
                     const Progress& progress = {});
+
+/// Renders several scenes in one picture: meshes of any kinds, each with its own field and
+/// classification, and the opaque surfaces of all. Along each ray, what it meets of all meshes is
+/// composited in one order, cut where one begins or ends in another; in what several meshes share,
+/// `settings.overlap` decides. Without overlap the order of the scenes does not matter, and a mesh
+/// cut in two by cells is the whole mesh to rounding (see SceneOptions::frame_bounds).
+///
+/// Optics are integrated in closed form, sums to 1e-13. The modes maximum, minimum, average and
+/// integral need the same field in all scenes, those with colours the same transfer function; in
+/// `average` a place in two meshes counts twice. Optical depth and cells are those of all meshes.
+///
+/// Throws Error as above, and where several scenes have no answer: a tolerance, other integrators
+/// than the closed form, the linear form of intervals, intervals from tables, the channel
+/// "cell_id". Requires that no pointer is null.
+RenderResult render(const std::vector<const Scene*>& scenes, const Camera& camera,
+                    const RenderSettings& settings = {}, const Progress& progress = {});
+
+/// Of all meshes and surfaces of several scenes, at least one: what a camera should see.
+Bounds visible_bounds(const std::vector<const Scene*>& scenes);
 
 }  // namespace plume

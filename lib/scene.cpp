@@ -1,6 +1,7 @@
 #include "plume/lib/scene.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
@@ -119,11 +120,33 @@ void take_words(Scene::Body& body, ReadField& read) {
              std::make_move_iterator(read.findings.end()));
 }
 
+// What the local frame is made of.
+Bounds bounds_for_frame(const Bounds& own, const SceneOptions& options) {
+  if (!options.frame_bounds) return own;
+  const Bounds all = united(own, *options.frame_bounds);
+  if (all.low != options.frame_bounds->low || all.high != options.frame_bounds->high)
+    throw Error(fmt::format(
+        "frame_bounds from ({}) to ({}): they must contain the mesh, which reaches from ({}) to "
+        "({}); give bounds of all meshes that are shown together",
+        fmt::join(options.frame_bounds->low, ", "), fmt::join(options.frame_bounds->high, ", "),
+        fmt::join(own.low, ", "), fmt::join(own.high, ", ")));
+  return all;
+}
+
 const char* kind_of(Association association) {
   return association == Association::point ? "on points" : "constant in each cell";
 }
 
 }  // namespace
+
+Bounds united(const Bounds& a, const Bounds& b) {
+  Bounds bounds = a;
+  for (std::size_t i = 0; i < 3; ++i) {
+    bounds.low[i] = std::min(a.low[i], b.low[i]);
+    bounds.high[i] = std::max(a.high[i], b.high[i]);
+  }
+  return bounds;
+}
 
 Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_unique<Body>()) {
   body_->bounds = check_structure(mesh);
@@ -134,6 +157,7 @@ Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_un
   const ScalarField& field = read.field;
   const bool on_points = field.association == Association::point;
   const bool keep_points = on_points && (options.keep_field_order || options.keep_gradients);
+  const Bounds frame_bounds = bounds_for_frame(body_->bounds, options);
   const bool keep_cells = options.keep_cell_numbers || (!on_points && options.keep_field_order);
 
   body_->sample = sample_for_map(field.values);
@@ -153,12 +177,12 @@ Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_un
     take(std::make_unique<Walkable<RectilinearWalker>>(
         make_walkable_rectilinear(mesh, std::move(read.field))));
   else if (mesh.is_grid())
-    take(std::make_unique<Walkable<GridWalker>>(make_walkable_grid(mesh, field, body_->bounds)));
+    take(std::make_unique<Walkable<GridWalker>>(make_walkable_grid(mesh, field, frame_bounds)));
   else if (all_tetrahedra(mesh))
     take(std::make_unique<Walkable<TetWalker>>(
-        make_walkable_tets(mesh, field, body_->bounds, keep_cells, keep_points)));
+        make_walkable_tets(mesh, field, frame_bounds, keep_cells, keep_points)));
   else {
-    WalkableCells cells = make_walkable_cells(mesh, field, body_->bounds, keep_cells, keep_points);
+    WalkableCells cells = make_walkable_cells(mesh, field, frame_bounds, keep_cells, keep_points);
     cells.corner_cells = make_corner_cells(cells);
     take(std::make_unique<Walkable<CellWalker>>(std::move(cells)));
   }
@@ -264,6 +288,8 @@ std::size_t Scene::bytes() const {
   return std::visit([](const auto& w) { return w->mesh.bytes(); }, body_->walkable);
 }
 
+const std::string& Scene::name() const { return body_->options.name; }
+
 bool Scene::has_gradients() const { return body_->gradients.has_value(); }
 
 void Scene::add_surface(OpaqueSurface surface) {
@@ -284,10 +310,7 @@ std::size_t Scene::surface_triangle_count() const {
 Bounds Scene::visible_bounds() const {
   Bounds bounds = body_->bounds;
   for (const SceneSurface& surface : body_->surfaces)
-    for (std::size_t a = 0; a < 3; ++a) {
-      bounds.low[a] = std::min(bounds.low[a], surface.index.bounds().low[a]);
-      bounds.high[a] = std::max(bounds.high[a], surface.index.bounds().high[a]);
-    }
+    bounds = united(bounds, surface.index.bounds());
   return bounds;
 }
 

@@ -22,6 +22,9 @@
 
 namespace plume {
 
+/// The least bounds around two.
+Bounds united(const Bounds& a, const Bounds& b);
+
 /// What a cell-centred field is between the centres of cells.
 enum class CellData : std::uint8_t {
   constant,  ///< what it says: one value in all of each cell, with jumps between them
@@ -45,6 +48,12 @@ struct SceneOptions {
   /// What the default colour map runs over, low below high, where the field's own values at this
   /// time are not all that is going to be shown. By default their 1st to 99th percentile.
   std::optional<std::array<double, 2>> color_range{};
+  /// What messages call the mesh, such as its file; by default its place among those of a picture.
+  std::string name{};
+  /// Bounds of all meshes that are going to be shown together, this one's included (united()).
+  /// Coordinates are then rounded alike in all of them, so that where they share faces a ray sees
+  /// one of the two, with neither a gap nor an overlap. Rectilinear grids need none.
+  std::optional<Bounds> frame_bounds{};
 };
 
 /// Immutable but for the classification, opaque surfaces and, where the options say so, the field;
@@ -80,6 +89,8 @@ class Scene {
   std::size_t bytes() const;
   /// Whether keep_gradients was set.
   bool has_gradients() const;
+  /// SceneOptions::name.
+  const std::string& name() const;
 
   /// Shows another field, or new values of the same: for a solver whose mesh stays. Nothing is
   /// rebuilt but what depends on the field: the scalars in the walkable mesh, gradients where they

@@ -165,7 +165,7 @@ void run(const ChartArguments& args) {
 
   const Console console(args.picture.quiet);
   Scene scene = make_scene(args, console);
-  choose_transfer_function(scene, args.picture, console);
+  choose_transfer_function(scene, look_fitted_to(scene), args.picture, console);
   const Camera camera = choose_camera(scene.visible_bounds(), args.picture, aspect_ratio);
   const int rounds = args.rounds > 0 ? args.rounds : args.quick ? 2 : 5;
   std::vector<ChartWay> ways = chart_ways(scene, settings, args.quick);

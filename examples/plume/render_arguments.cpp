@@ -68,6 +68,17 @@ void add_render_options(CLI::App& command, RenderArguments& args) {
   command.get_option("mesh")->description(
       std::string(kMeshFiles) +
       ", or several by a pattern in quotes: 'flow_*.vtu', 'flow_%04d.vtu'");
+  command
+      .add_option(
+          "--with", args.others,
+          "Another mesh in the same picture: FILE[:FIELD], by default of the field that the "
+          "first shows, which then has one look in all (repeatable)")
+      ->allow_extra_args(false);
+  command
+      .add_option("--overlap", args.overlap,
+                  "Where meshes are in one place: add, both are seen; first, the one named first; "
+                  "refuse (add)")
+      ->check(CLI::IsMember(names_of(kOverlaps)));
   add_camera_options(command, args);
   add_color_options(command, args);
   command.add_option("-o,--output", args.output,

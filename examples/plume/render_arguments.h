@@ -19,7 +19,8 @@ struct RenderArguments {
   std::string interval_form = "exponential";
   std::string interval_way = "split";
   std::vector<std::string> channels, isosurfaces, intervals, lights, clip_planes, surfaces, walls;
-  std::string material, clip_box, time, gray_range;
+  std::vector<std::string> others;  // --with
+  std::string material, clip_box, time, gray_range, overlap = "add";
   double azimuth = 0, elevation = 0, zoom = 1, opacity_scale = 1, view_angle = 0;
   double unit_distance = 0;
   std::optional<double> early_termination, tolerance;
@@ -41,6 +42,8 @@ inline const std::vector<std::pair<std::string, IntervalForm>> kIntervalForms{
     {"exponential", IntervalForm::exponential}, {"linear", IntervalForm::linear}};
 inline const std::vector<std::pair<std::string, IntervalWay>> kIntervalWays{
     {"split", IntervalWay::split}, {"table", IntervalWay::table}};
+inline const std::vector<std::pair<std::string, Overlap>> kOverlaps{
+    {"add", Overlap::add}, {"first", Overlap::first}, {"refuse", Overlap::refuse}};
 inline const std::vector<std::pair<std::string, ScalarOrder>> kOrders{
     {"1", ScalarOrder::linear},
     {"2", ScalarOrder::quadratic},

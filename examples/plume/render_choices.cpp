@@ -20,8 +20,13 @@ bool is_color_map_file(const std::string& transfer_function) {
          std::filesystem::exists(transfer_function);
 }
 
-void choose_transfer_function(Scene& scene, const RenderArguments& args, const Console& console) {
-  ColorMap map = scene.default_color_map();
+FittedLook look_fitted_to(const Scene& scene) {
+  return {scene.default_color_map(), scene.default_unit_distance()};
+}
+
+void choose_transfer_function(Scene& scene, const FittedLook& fitted, const RenderArguments& args,
+                              const Console& console) {
+  ColorMap map = fitted.map;
   const std::vector<std::string> presets = preset_names();
   if (!args.transfer_function.empty()) {
     if (auto colors = preset(args.transfer_function)) {
@@ -48,7 +53,7 @@ void choose_transfer_function(Scene& scene, const RenderArguments& args, const C
     console.say(fmt::format(
         "the colour map covers {:g} to {:g}, but '{}' runs from {:g} to {:g}; see --tf-range",
         map.colors.front().x, map.colors.back().x, field.name, field.low, field.high));
-  const double unit = args.unit_distance > 0 ? args.unit_distance : scene.default_unit_distance();
+  const double unit = args.unit_distance > 0 ? args.unit_distance : fitted.unit_distance;
   scene.set_transfer_function(to_transfer_function(map, unit, args.opacity_scale));
 }
 

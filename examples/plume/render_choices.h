@@ -12,7 +12,17 @@ namespace plume::command {
 /// Whether --tf names a file, which has a range of its own, and not a preset.
 bool is_color_map_file(const std::string& transfer_function);
 
-void choose_transfer_function(Scene& scene, const RenderArguments& args, const Console& console);
+/// A colour map that fits what is shown, and over which distance its opacity applies.
+struct FittedLook {
+  ColorMap map;
+  double unit_distance;
+};
+
+/// Fitted to the scene alone.
+FittedLook look_fitted_to(const Scene& scene);
+
+void choose_transfer_function(Scene& scene, const FittedLook& fitted, const RenderArguments& args,
+                              const Console& console);
 
 /// Light and clip planes need no mesh: what is wrong with them is said before a long read.
 void choose_light_and_clip(const RenderArguments& args, RenderSettings& settings);

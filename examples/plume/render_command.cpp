@@ -26,6 +26,7 @@ RenderSettings choose_settings(const RenderArguments& args) {
   settings.integrator.samples = args.samples;
   settings.interval_form = chosen(kIntervalForms, args.interval_form);
   settings.interval_way = chosen(kIntervalWays, args.interval_way);
+  settings.overlap = chosen(kOverlaps, args.overlap);
   if (!args.order.empty()) settings.order = chosen(kOrders, args.order);
   if (args.early_termination) settings.early_termination = *args.early_termination;
   if (args.tolerance)

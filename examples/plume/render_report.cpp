@@ -14,11 +14,25 @@ nlohmann::json to_json(const std::vector<Finding>& findings) {
   return list;
 }
 
+nlohmann::json others(const std::vector<const Scene*>& scenes) {
+  auto list = nlohmann::json::array();
+  for (std::size_t i = 1; i < scenes.size(); ++i) {
+    const ScalarField& field = scenes[i]->field();
+    list.push_back({{"mesh", scenes[i]->name()},
+                    {"cells", scenes[i]->cell_count()},
+                    {"walkable_bytes", scenes[i]->bytes()},
+                    {"field", field.name},
+                    {"field_range", {field.low, field.high}}});
+  }
+  return list;
+}
+
 }  // namespace
 
-nlohmann::json render_record(const FrameOfSeries& frame, const Scene& scene,
+nlohmann::json render_record(const FrameOfSeries& frame, const std::vector<const Scene*>& scenes,
                              const RenderSettings& settings, const RenderArguments& args,
                              const RenderStatistics& statistics, const StageTimes& ms) {
+  const Scene& scene = *scenes.front();
   const ScalarField& field = scene.field();
   const double cells = static_cast<double>(scene.cell_count());
   const bool of_cells = field.association == Association::cell || scene.cell_data_averaged();
@@ -37,6 +51,7 @@ nlohmann::json render_record(const FrameOfSeries& frame, const Scene& scene,
           {"hierarchy_made", statistics.hierarchy_made},
           {"isosurfaces_crossed", statistics.surfaces},
           {"interval_visits", statistics.visits},
+          {"rays_overlapping", statistics.rays_overlapping},
           {"ms",
            {{"read", ms.read},
             {"build", ms.build},
@@ -49,6 +64,7 @@ nlohmann::json render_record(const FrameOfSeries& frame, const Scene& scene,
           {"cells", scene.cell_count()},
           {"points", scene.point_count()},
           {"boundary_faces", scene.boundary_face_count()},
+          {"with", others(scenes)},
           {"field", field.name},
           {"field_association", of_cells ? "cell" : "point"},
           {"cell_data", of_cells ? nlohmann::json(args.cell_data) : nlohmann::json()},

@@ -28,7 +28,7 @@ struct FrameOfSeries {
 };
 
 /// What there is to say of one picture.
-nlohmann::json render_record(const FrameOfSeries& frame, const Scene& scene,
+nlohmann::json render_record(const FrameOfSeries& frame, const std::vector<const Scene*>& scenes,
                              const RenderSettings& settings, const RenderArguments& args,
                              const RenderStatistics& statistics, const StageTimes& ms);
 

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "other_meshes.h"
 #include "planned_frames.h"
 #include "plume/io/time_series.h"
 #include "plume/io/whole_file.h"
@@ -32,6 +33,7 @@ std::vector<std::size_t> steps_of(const std::vector<PlannedFrame>& frames) {
 
 SceneOptions scene_options(const RenderArguments& args, const RenderSettings& settings) {
   SceneOptions options;
+  options.name = args.mesh;
   options.field.name = args.field;
   if (args.association == "point") options.field.association = Association::point;
   if (args.association == "cell") options.field.association = Association::cell;
@@ -68,7 +70,11 @@ class SeriesRenderer {
         frames_(plan_frames(args, series_)),
         steps_(steps_of(frames_)),
         scene_(args, console, scene_options(args, settings_), steps_.size() > 1),
-        reader_(series_, steps_, steps_.size() > 1 && !args.no_read_ahead) {}
+        others_(args, console, scene_options(args, settings_), series_, steps_.size() > 1),
+        // One thread reads at a time, and the other meshes are read here.
+        reader_(series_, steps_, steps_.size() > 1 && !args.no_read_ahead && others_.empty()) {
+    scene_.show_surfaces();
+  }
 
   void run() {
     Stopwatch watch;
@@ -114,40 +120,67 @@ class SeriesRenderer {
     for (const std::string& line : taken.notices)
       once_.say(line, line.starts_with(file) ? line.substr(file.size()) : line);
     Stopwatch watch;
-    of_step(step, [&] {
-      try {
-        scene_.show(std::move(taken.step.mesh), series_);
-      } catch (const Error& error) {
-        if (series_.size() > 1) throw;
-        throw Error(args_.mesh + ": " + error.what());
-      }
+    others_.read(step);
+    ms.read += watch.lap();
+    const bool first = step == steps_.front();
+    of_mesh(step, [&] {
+      if (first && !others_.empty())
+        others_.prepare(scene_, taken.step.mesh, scene_options(args_, settings_).field);
+      scene_.show(std::move(taken.step.mesh), series_);
     });
+    others_.show();
+    if (first) of_mesh(step, [&] { choose_looks(); });
     ms.build = watch.lap();
     if (scene_.mesh_stayed()) ++meshes_stayed_;
-    if (step == steps_.front()) say_what_is_shown();
-    for (const Finding& finding : scene_.scene().findings())
-      once_.say(describe(finding), describe(finding));
+    if (first) say_what_is_shown();
+    for (const Scene* scene : scenes())
+      for (const Finding& finding : scene->findings())
+        once_.say(describe(finding), describe(finding));
     choose_camera_once();
   }
 
+  std::vector<const Scene*> scenes() const { return others_.scenes_with(scene_.scene()); }
+
+  void choose_looks() {
+    if (others_.empty())
+      scene_.choose_look(look_fitted_to(scene_.scene()));
+    else
+      others_.choose_looks(scene_);
+  }
+
+  // As of_step(), of a mesh, which a file of one step is.
+  template <class Work>
+  void of_mesh(std::size_t step, Work&& work) {
+    of_step(step, [&] {
+      try {
+        work();
+      } catch (const Error& error) {
+        const std::string words = error.what();
+        if (series_.size() > 1 || others_.is_of_one(words)) throw;
+        throw Error(args_.mesh + ": " + words);
+      }
+    });
+  }
+
   void say_what_is_shown() {
-    const Scene& scene = scene_.scene();
-    const ScalarField& field = scene.field();
-    console_.say(fmt::format("{}: {} cells, coloured by '{}' ({}, {:g} to {:g})", args_.mesh,
-                             with_separators(scene.cell_count()), field.name,
-                             scene.cell_data_averaged() ? "cell data averaged to points"
-                             : field.association == Association::point ? "point data"
-                                                                       : "cell data",
-                             field.low, field.high));
+    for (const Scene* scene : scenes()) {
+      const ScalarField& field = scene->field();
+      console_.say(fmt::format("{}: {} cells, coloured by '{}' ({}, {:g} to {:g})", scene->name(),
+                               with_separators(scene->cell_count()), field.name,
+                               scene->cell_data_averaged() ? "cell data averaged to points"
+                               : field.association == Association::point ? "point data"
+                                                                         : "cell data",
+                               field.low, field.high));
+    }
     if (!scene_.fitted_to().empty()) {
-      const auto& colors = scene.default_color_map().colors;
+      const auto& knots = scene_.scene().transfer_function().knots;
       console_.say(fmt::format("colours and opacity are fitted to {}, {:g} to {:g}",
-                               scene_.fitted_to(), colors.front().x, colors.back().x));
+                               scene_.fitted_to(), knots.front().scalar, knots.back().scalar));
     }
   }
 
   void choose_camera_once() {
-    const Bounds bounds = scene_.scene().visible_bounds();
+    const Bounds bounds = visible_bounds(scenes());
     if (!camera_) {
       const double aspect_ratio = static_cast<double>(settings_.width) / settings_.height;
       camera_ = choose_camera(bounds, args_, aspect_ratio);
@@ -160,12 +193,11 @@ class SeriesRenderer {
   }
 
   void make_picture(const PlannedFrame& frame, StageTimes& ms) {
-    const Scene& scene = scene_.scene();
     const Camera camera = turned(*camera_, args_, frame.turn);
     Stopwatch watch;
     RenderResult result;
     of_step(frame.step,
-            [&] { result = render(scene, camera, settings_, console_.progress_bar()); });
+            [&] { result = render(scenes(), camera, settings_, console_.progress_bar()); });
     ms.render = watch.lap();
     const RenderStatistics& statistics = result.statistics;
     take_values(statistics);
@@ -177,7 +209,7 @@ class SeriesRenderer {
     write_image(result.image, frame.output, file_options_);
     ms.write = watch.lap();
     records_.push_back(
-        render_record({frame.output, frame.step, time_, frame.turn, scene_.mesh_stayed()}, scene,
+        render_record({frame.output, frame.step, time_, frame.turn, scene_.mesh_stayed()}, scenes(),
                       settings_, args_, statistics, ms));
     const std::string walked =
         fmt::format("{} cells walked, {} rays lost, {:.0f} ms",
@@ -215,6 +247,7 @@ class SeriesRenderer {
         {"plume:mode", args_.mode},
         {"plume:plan", fmt::format("{}", fmt::join(statistics.plan, "; "))},
         {"plume:camera", describe_camera(camera)}};
+    for (const std::string& other : args_.others) lines.emplace_back("plume:with", other);
     if (series_.size() > 1) lines.emplace_back("plume:step", std::to_string(frame.step));
     if (time_) lines.emplace_back("plume:time", fmt::format("{}", *time_));
     return lines;
@@ -253,6 +286,7 @@ class SeriesRenderer {
   const std::vector<PlannedFrame> frames_;
   const std::vector<std::size_t> steps_;
   SeriesScene scene_;
+  OtherMeshes others_;
   std::optional<double> time_;  // of the step shown
   std::optional<Camera> camera_;
   Bounds first_bounds_{};

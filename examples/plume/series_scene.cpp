@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "opaque_options.h"
+#include "plume/mesh/rectilinear_axes.h"
 #include "plume/mesh/same_mesh.h"
 #include "render_choices.h"
 
@@ -36,6 +37,10 @@ std::optional<std::array<double, 2>> range_of_all(const ScalarField& first,
 
 }  // namespace
 
+Bounds bounds_of_mesh(const Mesh& mesh) {
+  return mesh.is_rectilinear() ? check_axes(mesh) : bounds_of(mesh.points);
+}
+
 void SeriesScene::show_first(const Mesh& mesh, const TimeSeries& series) {
   const bool fitted = args_.transfer_range.empty() && !is_color_map_file(args_.transfer_function);
   if (several_) {
@@ -50,15 +55,27 @@ void SeriesScene::show_first(const Mesh& mesh, const TimeSeries& series) {
   options_.field.name = field.name;
   options_.field.association = scene_->cell_data_averaged() ? Association::cell : field.association;
   values_ = {field.low, field.high};
-  choose_transfer_function(*scene_, args_, console_);
-  choose_classification(*scene_, args_, console_);
-  for (const std::string& text : args_.surfaces)
-    surfaces_.push_back(
-        read_opaque_surface(text, [this](const std::string& line) { console_.say(line); }));
+  if (has_surfaces_)
+    for (const std::string& text : args_.surfaces)
+      surfaces_.push_back(
+          read_opaque_surface(text, [this](const std::string& line) { console_.say(line); }));
   add_surfaces(mesh);
 }
 
+void SeriesScene::choose_look(const FittedLook& fitted) {
+  choose_transfer_function(*scene_, fitted, args_, console_);
+  choose_classification(*scene_, args_, console_);
+}
+
+void SeriesScene::choose_colors() {
+  const double unit =
+      args_.unit_distance > 0 ? args_.unit_distance : scene_->default_unit_distance();
+  scene_->set_transfer_function(
+      to_transfer_function(scene_->default_color_map(), unit, args_.opacity_scale));
+}
+
 void SeriesScene::add_surfaces(const Mesh& mesh) {
+  if (!has_surfaces_) return;
   for (const OpaqueSurface& surface : surfaces_) scene_->add_surface(surface);
   for (const std::string& text : args_.walls) scene_->add_surface(parse_wall(text, mesh));
 }
@@ -73,6 +90,8 @@ void SeriesScene::show(Mesh mesh, const TimeSeries& series) {
     TransferFunction transfer_function = scene_->transfer_function();
     Classification classification = scene_->classification();
     scene_.reset();  // before another takes its memory
+    if (options_.frame_bounds)
+      options_.frame_bounds = united(*options_.frame_bounds, bounds_of_mesh(mesh));
     scene_.emplace(mesh, options_);
     scene_->set_transfer_function(std::move(transfer_function));
     scene_->set_classification(std::move(classification));

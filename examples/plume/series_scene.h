@@ -11,8 +11,12 @@
 #include "plume/io/time_series.h"
 #include "plume/lib/plume.h"
 #include "render_arguments.h"
+#include "render_choices.h"
 
 namespace plume::command {
+
+/// Of any form.
+Bounds bounds_of_mesh(const Mesh& mesh);
 
 /// Shows one step's mesh after the other. All show the field that the first does, and are coloured
 /// by what was chosen for the first, so that pictures can be compared and a movie does not flicker.
@@ -28,6 +32,17 @@ class SeriesScene {
   /// be.
   void show(Mesh mesh, const TimeSeries& series);
 
+  /// Before the first is shown: bounds of all meshes of the picture (see SceneOptions).
+  void set_frame_bounds(const Bounds& bounds) { options_.frame_bounds = bounds; }
+  /// Before the first is shown: another field than the options say.
+  void set_field(const FieldRequest& request) { options_.field = request; }
+  /// Before the first is shown: with the surfaces and walls of the arguments.
+  void show_surfaces() { has_surfaces_ = true; }
+
+  /// After the first is shown: colours, isosurfaces and intervals as the arguments say.
+  void choose_look(const FittedLook& fitted);
+  /// Or colours alone, fitted to the field: of one that the arguments do not speak of.
+  void choose_colors();
   /// What is shown. Requires that something is.
   const Scene& scene() const { return *scene_; }
   /// Whether the last step's mesh was that of the step before.
@@ -51,6 +66,7 @@ class SeriesScene {
   bool mesh_stayed_ = false;
   std::array<float, 2> values_{};
   std::string fitted_to_;
+  bool has_surfaces_ = false;
   std::vector<OpaqueSurface> surfaces_;  // of files
 };
 

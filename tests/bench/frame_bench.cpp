@@ -19,8 +19,7 @@ constexpr const char* kHelp = R"(plume_frame_bench: whole frames, from the rays 
 
   --peers          against VTK's ray caster, with each of its integrators, on one thread
   --threads        two threads against one
-  --hexahedra      the blunt fin as hexahedra against tetrahedra; orders 1, 2 and 3; beside the
-                   thesis' frames
+  --hexahedra      the blunt fin as hexahedra against tetrahedra; orders 1, 2 and 3
   --intervals      two intervals and an isosurface added to a volume against the volume alone;
                    split in data space against the paper's tables
   --tolerance      what is asked for, what the planner chooses, and what that comes to, in all modes
@@ -97,7 +96,6 @@ int main(int argc, char** argv) {
     if (hexahedra) {
       good = plume::bench::compare_with_tetrahedra(hexahedra_options) && good;
       good = plume::bench::compare_orders(hexahedra_options) && good;
-      plume::bench::compare_with_thesis_frames(hexahedra_options);
     }
     if (hierarchy) good = plume::bench::compare_isosurfaces(hierarchy_options) && good;
     if (empty_space) good = plume::bench::compare_empty_space(empty_options) && good;

@@ -1,10 +1,10 @@
-/// Whole frames of hexahedra: against tetrahedra, by order, and beside the thesis'.
+/// Whole frames of hexahedra: against tetrahedra, and by order.
 #pragma once
 
 namespace plume::bench {
 
 struct HexahedraFrameOptions {
-  int size = 512;  ///< pixels along each side; the thesis' table has twice as many, too
+  int size = 512;  ///< pixels along each side
   int rounds = 5;
 };
 
@@ -17,8 +17,5 @@ bool compare_with_tetrahedra(const HexahedraFrameOptions& options);
 /// twisted, in orders 1, 2 and 3, and prints the time of a frame, and how far the scalar along its
 /// rays is from the isoparametric interpolation. False where a higher order is not nearer.
 bool compare_orders(const HexahedraFrameOptions& options);
-
-/// Frames a second of the thesis' two grids, beside its tables 6.6, 6.7 and 6.10.
-void compare_with_thesis_frames(const HexahedraFrameOptions& options);
 
 }  // namespace plume::bench

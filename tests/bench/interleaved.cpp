@@ -1,26 +1,29 @@
 #include "plume/tests/bench/interleaved.h"
 
+#include <algorithm>
+
 #include "plume/tests/bench/timing.h"
 
 namespace plume::bench {
 
 std::vector<std::vector<double>> take_turns(std::span<const std::function<void()>> tasks,
-                                            int rounds) {
+                                            int rounds, double (*clock)()) {
   std::vector<std::vector<double>> seconds(tasks.size());
   for (int round = 0; round < rounds; ++round)
     for (std::size_t task = 0; task < tasks.size(); ++task) {
-      const double start = thread_seconds();
+      const double start = clock();
       tasks[task]();
-      seconds[task].push_back(thread_seconds() - start);
+      seconds[task].push_back(clock() - start);
     }
   return seconds;
 }
 
 std::vector<WalkerTimes> measure(const BenchMesh& mesh, const std::vector<BenchView>& views,
-                                 Mode mode, int rounds) {
+                                 Mode mode, int rounds, const std::vector<std::string>& names) {
   std::vector<WalkerTimes> times;
   for (const BenchWalker& walker : walkers(mesh.family))
-    if (walker.has(mode))
+    if (walker.has(mode) &&
+        (names.empty() || std::find(names.begin(), names.end(), walker.name) != names.end()))
       times.push_back(
           {&walker, 0, std::vector<double>(static_cast<std::size_t>(rounds), 0), {}, 0, {}});
 

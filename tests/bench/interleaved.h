@@ -8,13 +8,15 @@
 #include <vector>
 
 #include "plume/tests/bench/agreement.h"
+#include "plume/tests/bench/timing.h"
 
 namespace plume::bench {
 
 /// Does the tasks in turns (A B A B ...), so that whatever slows the machine down slows all of
-/// them. Seconds of this thread's time on the processor, by task and round.
+/// them. Seconds by task and round, of this thread's time on the processor or of another clock
+/// (timing.h): what several threads do takes the wall's.
 std::vector<std::vector<double>> take_turns(std::span<const std::function<void()>> tasks,
-                                            int rounds);
+                                            int rounds, double (*clock)() = thread_seconds);
 
 struct WalkerTimes {
   const BenchWalker* walker = nullptr;
@@ -32,9 +34,9 @@ struct WalkerTimes {
   double million_cells_per_second() const { return static_cast<double>(cells) / seconds * 1e-6; }
 };
 
-/// Times all walkers of the mesh's family that have the mode, view by view, in turns. Before that,
-/// each walks once, which is compared with the reference.
+/// Times all walkers of the mesh's family that have the mode, or those of them that are named, view
+/// by view, in turns. Before that, each walks once, which is compared with the reference.
 std::vector<WalkerTimes> measure(const BenchMesh& mesh, const std::vector<BenchView>& views,
-                                 Mode mode, int rounds);
+                                 Mode mode, int rounds, const std::vector<std::string>& names = {});
 
 }  // namespace plume::bench

@@ -22,7 +22,7 @@ constexpr const char* kHelp = R"(plume_bench: how fast Plume is, as ratios withi
                  without, it takes some three minutes
   --rounds=N     how many times each is measured (3; with --all 5); medians are reported
   --resolution=N pixels along each side of a view, instead of what each mesh has
-  --table        ends with a plain table, the thesis' numbers beside it
+  --table        ends with a plain table (beside the thesis' numbers: plume_papers)
   --benchmark_filter=REGEX, --benchmark_out=FILE, --benchmark_format=json, ...
                  Google Benchmark's own
 The blunt fin is read from the directory PLUME_DATASETS, by default ../shared/datasets.

@@ -4,31 +4,8 @@
 
 #include <array>
 
-#include "plume/tests/bench/thesis_hexahedra.h"
-
 namespace plume::bench {
 namespace {
-
-constexpr const char* kThesis = R"(
-What the thesis reports, in million tetrahedra a second (G. Marmitt, "Interactive Volume Ray
-Tracing", 2008):
-
-  table 6.1, naive and optimised Plücker walk (3 GHz Athlon64, 2 GB memory)
-                tests a cell, M cells/s    tests a cell, M cells/s
-    Blunt-fin      4.714        9.346         2.669       17.106
-    Orbital        4.976        9.615         2.675       17.101
-    Bucky-ball     5.373        9.615         2.663       17.612
-
-  table 6.2 (its caption names no hardware; table 6.5, its counterpart for hexahedra, is from the
-  same 3 GHz Athlon64, tables 6.3 and 6.4 from 2 GHz Opteron 870)
-                 tetrahedra   traversal   iso-surface   semi-transparent
-    Blunt-fin      224,874      11.175        5.394          4.189
-    Orbital        148,955      10.568        5.379          4.020
-    Bucky-ball     176,856      10.514        5.237          4.049
-
-Ratios between its hardware and this are no measure of the method: compare with the column
-"x Plücker", the same algorithm written anew and measured here, in the same run.
-)";
 
 std::string with_commas(std::size_t number) {
   if (number < 1000) return fmt::format("{}", number);
@@ -63,7 +40,7 @@ std::string table_of(Family family, const std::vector<WalkerResult>& results) {
     previous = &r;
   }
   if (!previous) return {};
-  return text + (grids ? thesis_hexahedra(results) : kThesis);
+  return text;
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-/// The benchmarks' results as a table for people, beside the thesis' own.
+/// The benchmarks' results as a table for people.
 #pragma once
 
 #include <string>

@@ -16,6 +16,7 @@
 #include "plume/tests/bench/interleaved.h"
 #include "plume/tests/bench/markdown_table.h"
 #include "plume/tests/bench/timing.h"
+#include "plume/tests/bench/trilinear_field.h"
 #include "plume/tests/preint/transfer_functions.h"
 
 namespace plume::bench {
@@ -29,50 +30,6 @@ double smooth_field(const std::array<double, 3>& p) {
   const double q = std::hypot(p[0] - 20.0, p[1] - 40.0, p[2] - 30.0);
   return 0.5 + 0.25 * std::sin(0.63 * r) + 0.24 * std::cos(0.45 * q + 0.1 * p[2]);
 }
-
-// The same at 64^3 points, trilinear between them, as are El Hajjar's.
-class TrilinearField {
- public:
-  TrilinearField() {
-    for (int z = 0; z < kSize; ++z)
-      for (int y = 0; y < kSize; ++y)
-        for (int x = 0; x < kSize; ++x)
-          values_.push_back(static_cast<float>(smooth_field(
-              {static_cast<double>(x), static_cast<double>(y), static_cast<double>(z)})));
-  }
-
-  double operator()(const std::array<double, 3>& p) const {
-    std::array<int, 3> cell;
-    std::array<double, 3> w;
-    for (std::size_t a = 0; a < 3; ++a) {
-      cell[a] = std::clamp(static_cast<int>(std::floor(p[a])), 0, kSize - 2);
-      w[a] = p[a] - cell[a];
-    }
-    double sum = 0;
-    for (int corner = 0; corner < 8; ++corner) {
-      double weight = 1;
-      std::size_t index = 0;
-      for (std::size_t a = 3; a-- > 0;) {
-        const int high = corner >> a & 1;
-        weight *= high ? w[a] : 1 - w[a];
-        index = index * kSize + static_cast<std::size_t>(cell[a] + high);
-      }
-      sum += weight * values_[index];
-    }
-    return sum;
-  }
-
- private:
-  std::vector<float> values_;
-};
-
-struct FieldRay {
-  std::array<double, 3> origin, direction;
-  std::array<double, 3> at(double t) const {
-    return {origin[0] + t * direction[0], origin[1] + t * direction[1],
-            origin[2] + t * direction[2]};
-  }
-};
 
 constexpr double kRayLength = 32;  // voxels
 
@@ -91,66 +48,17 @@ std::vector<FieldRay> rays(int count, std::uint64_t seed) {
       ray.origin[a] = 31.5 + 4 * normal(random) - kRayLength / 2 * ray.direction[a];
       ray.origin[a] = std::clamp(ray.origin[a], 15.0, 48.0);
     }
+    ray.length = kRayLength;
     list.push_back(ray);
   }
   return list;
 }
 
-// Where the ray goes from voxel to voxel, both ends included.
-std::vector<double> voxel_borders(const FieldRay& ray) {
-  std::vector<double> places{0, kRayLength};
-  for (std::size_t a = 0; a < 3; ++a)
-    for (int plane = 0; plane < kSize; ++plane) {
-      const double t = (plane - ray.origin[a]) / ray.direction[a];
-      if (t > 0 && t < kRayLength) places.push_back(t);
-    }
-  std::sort(places.begin(), places.end());
-  return places;
-}
-
-// Sixteenths of a voxel.
+// Sixteenths of a voxel, between which a cubic is the smooth field to 1e-6.
 std::vector<double> fine_places() {
   std::vector<double> places;
   for (int i = 0; i <= 16 * static_cast<int>(kRayLength); ++i) places.push_back(i / 16.0);
   return places;
-}
-
-// A cubic between any two places: a trilinear field between voxels' borders, and a smooth one, to
-// 1e-6, between fine places.
-template <class Field>
-std::array<double, 4> exact(const Field& field, const FieldRay& ray,
-                            const std::vector<double>& places,
-                            const AdaptiveIntegrator& integrator) {
-  PreciseColor sum;
-  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
-    const double from = places[i], width = places[i + 1] - from;
-    const auto at = [&](double u) {
-      // Not on the border itself, beyond which lies another voxel.
-      return static_cast<float>(field(ray.at(from + std::clamp(u, 1e-9, 1 - 1e-9) * width)));
-    };
-    sum.add_behind(integrator.integrate_precisely(
-        ScalarPolynomial::cubic(at(0), at(1.0 / 3), at(2.0 / 3), at(1)), width));
-  }
-  return {sum.rgb[0], sum.rgb[1], sum.rgb[2], sum.alpha};
-}
-
-struct Error {
-  double largest = 0, squares = 0;
-  int count = 0;
-
-  void add(const std::array<double, 4>& found, const std::array<double, 4>& right) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      const double off = std::abs(found[c] - right[c]);
-      largest = std::max(largest, off);
-      squares += off * off;
-      ++count;
-    }
-  }
-  double rms() const { return std::sqrt(squares / count); }
-};
-
-std::array<double, 4> color_of(const Compositor& sum) {
-  return {sum.rgb[0], sum.rgb[1], sum.rgb[2], sum.alpha()};
 }
 
 using Rows = std::vector<std::vector<std::string>>;
@@ -169,7 +77,7 @@ void by_step(const Field& field, const std::vector<FieldRay>& list,
                                    {256, 2, std::array{0.0f, 1.0f}, {}, static_cast<float>(step)});
     const SecondOrderTable second(
         function, {quick ? 32 : 96, 2, std::array{0.0f, 1.0f}, {}, static_cast<float>(2 * step)});
-    Error of_first, of_second;
+    ColorError of_first, of_second;
     for (std::size_t r = 0; r < list.size(); ++r) {
       const auto at = [&](int i) { return static_cast<float>(field(list[r].at(i * step))); };
       Compositor by_first, by_second;
@@ -182,7 +90,7 @@ void by_step(const Field& field, const std::vector<FieldRay>& list,
       of_second.add(color_of(by_second), right[r]);
     }
     if (rows.size() <= ++row) rows.push_back({fmt::format("{:g}", step)});
-    for (const Error& error : {of_first, of_second})
+    for (const ColorError& error : {of_first, of_second})
       rows[row].push_back(fmt::format("{:.1e}", error.rms()));
     rows[row].push_back(row == 1 ? "" : fmt::format("{:.2f}", last_second / of_first.rms()));
     last_second = of_second.rms();
@@ -199,9 +107,9 @@ std::string by_voxel(const TrilinearField& field, const std::vector<FieldRay>& l
       function, {quick ? 16 : 40, 24, std::array{0.0f, 1.0f}, std::array{1e-3f, 2.0f}});
   Rows rows{{"in each voxel", "samples a voxel", "RMS", "largest"}};
   const auto add_row = [&](const std::string& name, int samples, const auto& add) {
-    Error error;
+    ColorError error;
     for (std::size_t r = 0; r < list.size(); ++r) {
-      const auto places = voxel_borders(list[r]);
+      const auto places = voxel_borders(list[r], kSize);
       Compositor sum;
       for (std::size_t i = 0; i + 1 < places.size(); ++i) {
         const double from = places[i], width = places[i + 1] - from;
@@ -236,13 +144,14 @@ std::string by_voxel(const TrilinearField& field, const std::vector<FieldRay>& l
 }
 
 std::string along_rays(const TransferFunction& function, const IntegratorBenchOptions& options) {
-  const TrilinearField trilinear;
+  // 64^3 points, as are El Hajjar's.
+  const TrilinearField trilinear(kSize, smooth_field);
   const AdaptiveIntegrator reference(function);
   const auto list = rays(std::max(8, options.segments / 14), options.seed);
   std::vector<std::array<double, 4>> of_smooth, of_trilinear;
   for (const FieldRay& ray : list) {
-    of_smooth.push_back(exact(smooth_field, ray, fine_places(), reference));
-    of_trilinear.push_back(exact(trilinear, ray, voxel_borders(ray), reference));
+    of_smooth.push_back(exact_color(smooth_field, ray, fine_places(), reference));
+    of_trilinear.push_back(exact_color(trilinear, ray, voxel_borders(ray, kSize), reference));
   }
   Rows rows{{"step, voxels", "smooth: first order", "second", "second at twice the step : first",
              "trilinear: first order", "second", "second at twice the step : first"}};
@@ -282,7 +191,7 @@ std::string single_segments(const TransferFunction& function,
   std::vector<Compositor> sums(list.size());
   const auto add_row = [&](const std::string& name, const auto& integrate, double bytes,
                            double seconds) {
-    Error error;
+    ColorError error;
     const auto all = [&list, &sums, integrate] {
       for (std::size_t i = 0; i < list.size(); ++i) sums[i] = integrate(list[i]);
     };

@@ -1,16 +1,10 @@
 #include "plume/tests/bench/vtk_frames.h"
 
 #include <vtkCamera.h>
-#include <vtkColorTransferFunction.h>
 #include <vtkDataSet.h>
 #include <vtkDoubleArray.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkPiecewiseFunction.h>
 #include <vtkPointData.h>
-#include <vtkRayCastImageDisplayHelper.h>
-#include <vtkRenderWindow.h>
-#include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnstructuredGrid.h>
 #include <vtkUnstructuredGridHomogeneousRayIntegrator.h>
@@ -20,7 +14,6 @@
 #include <vtkUnstructuredGridVolumeRayCastFunction.h>
 #include <vtkUnstructuredGridVolumeRayCastIterator.h>
 #include <vtkUnstructuredGridVolumeRayCastMapper.h>
-#include <vtkVersion.h>
 #include <vtkVolume.h>
 #include <vtkVolumeProperty.h>
 
@@ -30,63 +23,10 @@
 
 #include "plume/io/vtk_from_mesh.h"
 #include "plume/mesh/error.h"
+#include "plume/tests/bench/vtk_view.h"
 
 namespace plume::bench {
 namespace {
-
-// What vtkStandardNewMacro makes of New().
-template <class Object>
-Object* made() {
-  auto* object = new Object;
-  object->InitializeObjectBase();
-  return object;
-}
-
-// A renderer and a window that show nothing: the mapper asks them for camera and size alone, and
-// no graphics are needed.
-class BlindRenderer : public vtkRenderer {
- public:
-  static BlindRenderer* New() { return made<BlindRenderer>(); }
-};
-
-class BlindWindow : public vtkRenderWindow {
- public:
-  static BlindWindow* New() { return made<BlindWindow>(); }
-};
-
-// Takes the mapper's image instead of drawing it.
-class ImageTaker : public vtkRayCastImageDisplayHelper {
- public:
-  static ImageTaker* New() { return made<ImageTaker>(); }
-
-  void RenderTexture(vtkVolume*, vtkRenderer*, int memory_size[2], int /*viewport_size*/[2],
-                     int /*in_use_size*/[2], int /*origin*/[2], float /*depth*/,
-                     unsigned char* image) override {
-    row = memory_size[0];
-    taken = image;
-  }
-  void RenderTexture(vtkVolume*, vtkRenderer*, int*, int*, int*, int*, float,
-                     unsigned short*) override {}
-  void RenderTexture(vtkVolume*, vtkRenderer*, vtkFixedPointRayCastImage*, float) override {}
-
-  // Of the last frame of any mapper.
-  static inline int row = 0;
-  static inline const unsigned char* taken = nullptr;
-};
-
-vtkObject* make_image_taker() { return ImageTaker::New(); }
-
-class TakerFactory : public vtkObjectFactory {
- public:
-  static TakerFactory* New() { return made<TakerFactory>(); }
-  const char* GetVTKSourceVersion() override { return VTK_SOURCE_VERSION; }
-  const char* GetDescription() override { return "keeps pictures off the screen"; }
-
-  TakerFactory() {
-    RegisterOverride("vtkRayCastImageDisplayHelper", "ImageTaker", "no screen", 1,
-                     make_image_taker);
-  }
-};
 
 // Faces seen edge-on make scalars that are not finite, with which this integrator reads outside of
 // its table and crashes. A pixel that meets one is made not a number, as those of the others are.
@@ -125,23 +65,6 @@ const std::vector<NamedIntegrator>& all_integrators() {
   return all;
 }
 
-void set_optics(vtkVolumeProperty& property, const TransferFunction& transfer_function) {
-  vtkNew<vtkColorTransferFunction> color;
-  vtkNew<vtkPiecewiseFunction> opacity;
-  color->SetColorSpaceToRGB();
-  for (const TransferFunction::Knot& knot : transfer_function.knots) {
-    const auto& rgb = knot.optics.color;
-    color->AddRGBPoint(knot.scalar, rgb[0], rgb[1], rgb[2]);
-    opacity->AddPoint(knot.scalar, knot.optics.extinction);
-  }
-  property.IndependentComponentsOn();
-  property.SetColor(color);
-  property.SetScalarOpacity(opacity);
-  property.SetScalarOpacityUnitDistance(1);
-  property.ShadeOff();
-  property.SetInterpolationTypeToLinear();
-}
-
 }  // namespace
 
 struct VtkFrames::Pipeline {
@@ -159,12 +82,7 @@ struct VtkFrames::Pipeline {
 VtkFrames::VtkFrames(const Mesh& mesh, const std::string& field,
                      const TransferFunction& transfer_function)
     : pipeline_(std::make_unique<Pipeline>()) {
-  static const bool registered = [] {
-    vtkNew<TakerFactory> factory;
-    vtkObjectFactory::RegisterFactory(factory);
-    return true;
-  }();
-  static_cast<void>(registered);
+  keep_pictures_off_the_screen();
   Pipeline& p = *pipeline_;
   p.data = unstructured_from(mesh);
   p.scalars = p.data->GetPointData()->GetArray(field.c_str());
@@ -199,26 +117,11 @@ void VtkFrames::look(const Camera& camera, int size) {
   p.size = size;
   p.window->SetSize(size, size);
   vtkCamera& eye = *p.renderer->GetActiveCamera();
-  eye.SetPosition(camera.position.data());
-  eye.SetFocalPoint(camera.focal_point.data());
-  eye.SetViewUp(camera.view_up.data());
-  eye.SetViewAngle(camera.view_angle);
-  eye.SetParallelProjection(camera.parallel ? 1 : 0);
-  eye.SetParallelScale(camera.parallel_scale);
+  aim(eye, camera, p.data->GetBounds());
   eye.SetWindowCenter(1.0 / size, 1.0 / size);
-  // The planes just around the mesh.
-  const double* bounds = p.data->GetBounds();
-  double near = eye.GetDistance() * 1e3, far = 0;
-  for (int corner = 0; corner < 8; ++corner) {
-    double depth = 0;
-    for (int a = 0; a < 3; ++a)
-      depth += (bounds[2 * a + (corner >> a & 1)] - eye.GetPosition()[a]) *
-               eye.GetDirectionOfProjection()[a];
-    near = std::min(near, depth);
-    far = std::max(far, depth);
-  }
-  eye.SetClippingRange(std::max(1e-3 * far, 0.99 * near), 1.01 * far);
 }
+
+void VtkFrames::set_threads(int threads) { pipeline_->mapper->SetNumberOfThreads(threads); }
 
 void VtkFrames::render(const std::string& integrator) {
   Pipeline& p = *pipeline_;

@@ -12,7 +12,8 @@
 
 namespace plume::bench {
 
-/// vtkUnstructuredGridVolumeRayCastMapper with Bunyk's walk, on one thread, a ray a pixel.
+/// vtkUnstructuredGridVolumeRayCastMapper with Bunyk's walk, a ray a pixel; on one thread
+/// unless set_threads() says otherwise.
 ///
 /// Rays: VTK sends the ray of pixel (x, y) through the pixel's corner, not its centre; the camera's
 /// window is moved by half a pixel, so that they are PixelRays'. It takes lengths on a ray that is
@@ -34,6 +35,9 @@ class VtkFrames {
 
   /// The camera for what follows, and the pixels along each side.
   void look(const Camera& camera, int size);
+
+  /// For what follows; at least 1.
+  void set_threads(int threads);
 
   /// One frame as the mapper renders it, but for the display on a screen. As VTK does, ends a ray
   /// once its opacity is 0.99, after the 32 cells at hand. What depends on mesh, transfer function

@@ -94,6 +94,17 @@ refused "a side of no grid" 1 "--wall 'kmin'|no curvilinear or rectilinear grid|
 refused "a side that no grid has" 1 "--wall 'top'|imin|kmax" "$plume" render body.vts --wall top -o x.png --quiet
 refused "a surface's colour that is none" 1 "--surface 'plate.stl:2,0,0'|0 to 1" "$plume" render box.vtu --surface plate.stl:2,0,0 -o x.png --quiet
 refused "a surface that is not there" 1 "none.stl" "$plume" render box.vtu --surface none.stl -o x.png --quiet
+# Other meshes in the same picture.
+ok "three meshes" "$plume" render box.vtu --field radius --with mixed.vtu --with body.vts:pressure -o w.png --size 40x30 --stats w.json --quiet
+ok "all are in the statistics" json w.json "[(o['mesh'],o['field']) for o in j['with']]==[('mixed.vtu','radius'),('body.vts','pressure')] and j['lost_rays']==0 and j['rays_overlapping']>0"
+ok "and in the plan" json w.json "any('rays: one by one through 3 meshes' in line for line in j['plan'])"
+ok "the first of two in one place hides the other" "$plume" render box.vtu --with mixed.vtu --overlap first -o w.png --size 40x30 --stats w.json --quiet
+ok "and is said to" json w.json "any('the first of two is seen alone' in line for line in j['plan'])"
+refused "meshes that overlap" 1 "mesh 'box.vtu' and mesh 'mixed.vtu' overlap|pixel|--overlap add" "$plume" render box.vtu --with mixed.vtu --overlap refuse -o x.png --size 20x20 --quiet
+refused "a field that the other has not" 1 "body.vts: no field 'radius'|pressure" "$plume" render box.vtu --field radius --with body.vts -o x.png --quiet
+refused "a field that neither has" 1 "box.vtu: no field 'none'" "$plume" render box.vtu --field none --with body.vts:pressure -o x.png --quiet
+refused "another mesh that is not there" 1 "none.vtu" "$plume" render box.vtu --with none.vtu:radius -o x.png --quiet
+refused "a tolerance of several" 1 "several meshes|tolerance" "$plume" render box.vtu --with mixed.vtu --tolerance 1e-3 -o x.png --quiet
 ok "a component" "$plume" render body.vts --field velocity:0 -o f.png --size 20x20 --stats f.json --quiet
 ok "the component is named" json f.json "j['field']=='velocity:0'"
 ok "a magnitude" "$plume" render body.vts --field velocity:magnitude -o f.png --size 20x20 --stats f.json --quiet
