@@ -3,6 +3,7 @@
 #   core  headers and static libraries without VTK: plume::core
 #   io    files in and out, with VTK and OpenImageIO: plume::io
 #   c     the C interface, one shared library that needs nothing of ours: plume::c
+#   vtk   VTK's classes, a mapper and an image filter, with what VTK draws with: plume::vtk
 #
 # and the `plume` command. Nothing installed names a place of the build or of the installation.
 include(GNUInstallDirs)
@@ -19,6 +20,18 @@ function(plume_install name component headers)
   set_property(GLOBAL APPEND PROPERTY PLUME_PUBLIC_HEADERS ${headers})
 endfunction()
 
+# The linker's options for VTK's libraries, for those who link to what is installed by pkg-config.
+function(plume_link_options variable)
+  set(link "")
+  foreach(library ${ARGN})
+    get_target_property(file ${library} LOCATION)
+    if(file MATCHES "/lib([^/]*)[.](so|a)[^/]*$")
+      string(APPEND link " -l${CMAKE_MATCH_1}")
+    endif()
+  endforeach()
+  set(${variable} ${link} PARENT_SCOPE)
+endfunction()
+
 # Once all folders are there.
 function(plume_install_package)
   add_library(plume_core INTERFACE)
@@ -27,7 +40,13 @@ function(plume_install_package)
   set_target_properties(plume_core PROPERTIES EXPORT_NAME core)
   install(TARGETS plume_core EXPORT plume-core)
   install(TARGETS plume)
-  foreach(component core io c)
+  set(components core io c)
+  set(packages plume plume-io plume-c)
+  if(TARGET plume_vtk)
+    list(APPEND components vtk)
+    list(APPEND packages plume-vtk)
+  endif()
+  foreach(component ${components})
     install(EXPORT plume-${component} NAMESPACE plume:: DESTINATION ${PLUME_INSTALL_CMAKEDIR})
   endforeach()
 
@@ -40,7 +59,7 @@ function(plume_install_package)
           DESTINATION ${PLUME_INSTALL_CMAKEDIR})
 
   file(RELATIVE_PATH up /prefix/${PLUME_INSTALL_PKGCONFIGDIR} /prefix)
-  foreach(package plume plume-io plume-c)
+  foreach(package ${packages})
     configure_file(cmake/${package}.pc.in ${PROJECT_BINARY_DIR}/${package}.pc @ONLY)
     install(FILES ${PROJECT_BINARY_DIR}/${package}.pc DESTINATION ${PLUME_INSTALL_PKGCONFIGDIR})
   endforeach()

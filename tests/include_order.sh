@@ -13,7 +13,7 @@ check() { # the root of a source tree
       grep -vE "#include +[\"<]plume/($folder|$allowed)/"; then
       bad=1
     fi
-    if [ "$folder" != io ] && grep -rnE '#include +["<](vtk[A-Z]|OpenImageIO/)' "$root/$folder" \
+    if [ "$folder" != io ] && [ "$folder" != vtk ] && grep -rnE '#include +["<](vtk[A-Z]|OpenImageIO/)' "$root/$folder" \
       --include='*.h' --include='*.cpp'; then
       bad=1
     fi
@@ -23,6 +23,7 @@ preint preint
 traverse mesh
 lib mesh|traverse|preint
 io lib|mesh
+vtk lib|mesh|io
 capi lib
 python lib
 datasets mesh
@@ -33,13 +34,15 @@ ORDER
 if [ "${1:-}" = --self-test ]; then
   house=$(mktemp -d)
   trap 'rm -rf "$house"' EXIT
-  mkdir "$house"/{mesh,preint,lib,io,capi,python}
+  mkdir "$house"/{mesh,preint,lib,io,capi,python,vtk}
   echo '#include "plume/mesh/mesh.h"' >"$house/lib/a.h"
   echo '#include <vtkCell.h>' >"$house/io/a.cpp"
+  echo '#include <vtkCell.h>' >"$house/vtk/a.cpp"
   check "$house" >/dev/null || { echo "a sound house was refused" >&2; exit 1; }
   for offence in 'mesh #include "plume/lib/a.h"' 'preint #include <plume/mesh/mesh.h>' \
     'lib #include <vtkCell.h>' 'mesh #include "../lib/a.h"' 'io #include "plume/traverse/ray.h"' \
-    'capi #include "plume/mesh/mesh.h"' 'python #include "plume/io/read_mesh.h"'; do
+    'capi #include "plume/mesh/mesh.h"' 'python #include "plume/io/read_mesh.h"' \
+    'vtk #include "plume/traverse/ray.h"' 'io #include "plume/vtk/volume_mapper.h"'; do
     folder=${offence%% *}
     echo "${offence#* }" >"$house/$folder/b.h"
     if check "$house" >/dev/null; then

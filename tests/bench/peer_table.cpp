@@ -29,6 +29,9 @@ std::vector<PeerRow> compare_peers(std::span<const PeerWay> ways, const Image& r
     const Image picture = ways[i].picture();
     rows.push_back({ways[i].family, ways[i].method, 0, 0, spent[i] >= timings.limit,
                     picture_error(picture, reference)});
+    if (timings.say)
+      timings.say(fmt::format("{} of {}: {}, {}: {:.3g} s", i + 1, ways.size(), ways[i].family,
+                              ways[i].method, spent[i]));
     if (!timings.pictures.empty()) {
       std::string name = ways[i].family + " " + ways[i].method + ".png";
       std::replace(name.begin(), name.end(), '/', '-');

@@ -1,6 +1,7 @@
 /// Peers, timed in turns and compared with a reference.
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@ struct PeerTimings {
   int rounds = 5;          ///< frames of each way; medians are reported
   double limit = 60;       ///< seconds a way may take in all; one frame is always made
   bool one_thread = true;  ///< then the process' time on the processor is taken, else the clock's
+  /// Told of each way's first frame, where it is given.
+  std::function<void(const std::string&)> say;
   /// A directory for the pictures, as PNG files; none where empty.
   std::string pictures;
 };

@@ -124,7 +124,7 @@ int run(const Arguments& args) {
   if (args.seven_knots)
     scene.set_transfer_function(seven_knots(scene));
   else
-    command::choose_transfer_function(scene, args.render, console);
+    command::choose_transfer_function(scene, command::look_fitted_to(scene), args.render, console);
   peers.transfer_function = scene.transfer_function();
   peers.camera = command::choose_camera(scene.bounds(), args.render, 1);
   peers.size = args.size;
@@ -154,6 +154,7 @@ int run(const Arguments& args) {
   add("openvkl", [&] { return openvkl_ways(peers, args.quick); });
 #endif
   PeerTimings timings = args.timings;
+  timings.say = [&](const std::string& line) { console.say(line); };
   timings.one_thread = args.render.threads == 1;
   const std::vector<PeerRow> rows = compare_peers(ways, reference, timings);
   write_whole_file(args.render.output, peer_csv(rows));

@@ -77,6 +77,7 @@ std::vector<PeerWay> vtk_z_sweep_ways(const PeerScene& scene, bool quick) {
   std::vector<PeerWay> ways;
   for (const bool linear : {true, false})
     for (const int finer : {1, 3, 5}) {
+      if (finer > 1 && finer * scene.size > 1024) continue;  // takes minutes, and gigabytes
       if (finer > 1 && (!linear || (quick && finer > 3))) continue;
       const auto sweep = std::make_shared<ZSweep>(scene, linear, finer);
       ways.push_back({"VTK Z sweep",

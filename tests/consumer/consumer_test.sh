@@ -55,11 +55,19 @@ moved/bin/plume generate box-mixed --size 4 -o box.vtu
 expect '^208 cells, [1-9][0-9]* of 76800 rays hit$' io/my_viewer box.vtu picture.png
 [ -s picture.png ] || fail "no picture"
 
+with_vtk=$(find moved -name plume-vtk.pc)  # where the build has it
+if [ -n "$with_vtk" ]; then
+  project vtk
+  moved/bin/plume generate box-tetrahedra --size 4 -o tetrahedra.vtu
+  vtk/my_pipeline tetrahedra.vtu radius vtk.png
+  [ -s vtk.png ] || fail "no picture by VTK's pipeline"
+fi
+
 cmake -S "$source_dir/tests/consumer/refused" -B refused -DCMAKE_PREFIX_PATH="$prefix" \
   >refused.log 2>&1 || { cat refused.log >&2; fail "refused"; }
 expect 'version 0.2: 0, considered 0\.1\.0' cat refused.log
 expect 'without C: (0|FALSE): .*io needs what was not found: the language C' cat refused.log
-expect 'unknown: (0|FALSE): .*There is no component telepathy: core, io, c' cat refused.log
+expect 'unknown: (0|FALSE): .*There is no component telepathy: core, io, c, vtk' cat refused.log
 expect 'optional: (1|TRUE), core (1|TRUE), io (0|FALSE)' cat refused.log
 
 export PKG_CONFIG_PATH
@@ -69,6 +77,12 @@ expect "$cxx_says" ./by_pkg_config
 c++ -std=c++20 "$source_dir/examples/file_to_picture.cpp" $(pkg-config --cflags --libs plume-io) \
   -o viewer_by_pkg_config
 expect '^208 cells' ./viewer_by_pkg_config box.vtu picture.png
+if [ -n "$with_vtk" ]; then
+  c++ -std=c++20 "$source_dir/examples/vtk_pipeline.cpp" $(pkg-config --cflags --libs plume-vtk) \
+    $(pkg-config --libs plume-vtk | grep -o -- '-lvtkIOXML-[0-9.]*' | sed 's/XML/Image/') -o pipeline_by_pkg_config
+  ./pipeline_by_pkg_config tetrahedra.vtu radius by_pkg_config.png
+  cmp vtk.png by_pkg_config.png || fail "pkg-config's picture is another"
+fi
 cc "$source_dir/examples/embed.c" $(pkg-config --cflags --libs plume-c) \
   -Wl,-rpath,"$(pkg-config --variable=libdir plume-c)" -o c_by_pkg_config
 expect "$cxx_says" ./c_by_pkg_config

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "plume/tests/bench/markdown_table.h"
 #include "plume/tests/bench/scaling/power_law.h"
 
@@ -10,33 +12,60 @@ namespace {
 
 std::string number(double value) { return fmt::format("{:.4g}", value); }
 
+// Counts in full, other numbers in four digits.
+std::string place(double x) {
+  return x == static_cast<double>(static_cast<long long>(x)) ? fmt::format("{:.0f}", x) : number(x);
+}
+
+std::optional<PowerLaw> law_of(const ScalingSeries& series, std::size_t quantity) {
+  std::vector<double> x, y;
+  for (const auto& point : series.points) {
+    x.push_back(point.x);
+    y.push_back(point.values[quantity]);
+  }
+  return fit_power_law(x, y);
+}
+
+std::string exponent_of(const std::optional<PowerLaw>& law) {
+  if (!law) return "-";
+  return law->error ? fmt::format("**{:.3f}** ± {:.3f}", law->exponent, *law->error)
+                    : fmt::format("**{:.3f}**", law->exponent);
+}
+
+std::string range_of(const std::optional<PowerLaw>& law) {
+  return law ? fmt::format("{:.2f} to {:.2f}", law->least, law->most) : "-";
+}
+
 }  // namespace
 
 std::string as_markdown(const ScalingSeries& series) {
   std::vector<std::vector<std::string>> rows{{series.variable}};
-  std::vector<double> x;
   for (const auto& point : series.points) {
-    x.push_back(point.x);
-    // Counts in full, other numbers in four digits.
-    rows.push_back({point.x == static_cast<double>(static_cast<long long>(point.x))
-                        ? fmt::format("{:.0f}", point.x)
-                        : number(point.x)});
+    rows.push_back({place(point.x)});
     for (const double value : point.values) rows.back().push_back(number(value));
   }
   std::vector<std::string> exponents{"**exponent**"}, range{"from point to point"};
   for (std::size_t q = 0; q < series.quantities.size(); ++q) {
     rows.front().push_back(series.quantities[q]);
-    std::vector<double> y;
-    for (const auto& point : series.points) y.push_back(point.values[q]);
-    const auto law = fit_power_law(x, y);
-    exponents.push_back(!law ? "-"
-                        : law->error
-                            ? fmt::format("**{:.3f}** ± {:.3f}", law->exponent, *law->error)
-                            : fmt::format("**{:.3f}**", law->exponent));
-    range.push_back(law ? fmt::format("{:.2f} to {:.2f}", law->least, law->most) : "-");
+    const auto law = law_of(series, q);
+    exponents.push_back(exponent_of(law));
+    range.push_back(range_of(law));
   }
   rows.push_back(exponents);
   rows.push_back(range);
+  return markdown_table(rows);
+}
+
+std::string exponents_as_markdown(const std::vector<ScalingSeries>& all) {
+  std::vector<std::vector<std::string>> rows{
+      {"of", "quantity", "over", "from", "to", "exponent", "from point to point"}};
+  for (const ScalingSeries& series : all)
+    for (std::size_t q = 0; q < series.quantities.size(); ++q) {
+      const auto law = law_of(series, q);
+      rows.push_back({q == 0 ? series.name : "", series.quantities[q], series.variable,
+                      place(series.points.front().x), place(series.points.back().x),
+                      exponent_of(law), range_of(law)});
+    }
   return markdown_table(rows);
 }
 
