@@ -31,6 +31,12 @@ for block in $(ls block* | sort -V); do
   for option in $(grep -o 'PLUME_WITH_[A-Z]*' "$block" | sort -u); do
     grep -q "^$option:BOOL=ON" build/CMakeCache.txt || missing+=" $option"
   done
+  if grep -q 'plume chart .*\.\(png\|svg\)' "$block" && ! command -v gnuplot >/dev/null; then
+    echo "SKIPPED: gnuplot is not installed (Debian: gnuplot-nox) for:"
+    cat "$block"
+    skipped=1
+    continue
+  fi
   if [ -n "$missing" ]; then
     echo "SKIPPED: the build is without$missing for:"
     cat "$block"

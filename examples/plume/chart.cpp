@@ -1,7 +1,11 @@
 #include "chart.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <fstream>
+
+#include "console.h"
 
 namespace plume::command {
 
@@ -9,6 +13,7 @@ Chart make_chart(ChartSubject subject, ChartMeasurement measurement,
                  const std::vector<ChartPoint>& others) {
   Chart chart;
   chart.subject = std::move(subject);
+  chart.subject.on_processor = measurement.on_processor;
   chart.ways = std::move(measurement.ways);
   chart.reference_seconds = measurement.reference_seconds;
   std::stable_sort(chart.ways.begin(), chart.ways.end(), [](const auto& a, const auto& b) {
@@ -26,6 +31,14 @@ Chart make_chart(ChartSubject subject, ChartMeasurement measurement,
   }
   for (PeerFamily& family : chart.peers) family.factors = peer_factors(chart.points, family.points);
   return chart;
+}
+
+std::string describe(const ChartSubject& on) {
+  return fmt::format(
+      "{} cells ({}), '{}', {} x {} pixels, {} thread{}, {}, {}; medians of {} frames in turns{}",
+      with_separators(on.cells), on.form, on.field, on.width, on.height, on.threads,
+      on.threads == 1 ? "" : "s", on.processor, on.date, on.rounds,
+      on.on_processor ? ", time on the processor" : "");
 }
 
 std::string processor_name() {

@@ -16,14 +16,15 @@ struct ChartSubject {
   std::string mesh;  ///< the file
   std::string form;  ///< as Scene::form()
   std::size_t cells = 0;
-  std::string field;      ///< what is shown
-  int width = 0;          ///< pixels
-  int height = 0;         ///< pixels
-  int threads = 0;        ///< that rendered
-  int rounds = 0;         ///< frames timed of each way, at most
-  std::string processor;  ///< in the words of the system
-  std::string date;       ///< year-month-day
-  std::string camera;     ///< position, focal point, view up, angle
+  std::string field;          ///< what is shown
+  int width = 0;              ///< pixels
+  int height = 0;             ///< pixels
+  int threads = 0;            ///< that rendered
+  int rounds = 0;             ///< frames timed of each way, at most
+  std::string processor;      ///< in the words of the system
+  std::string date;           ///< year-month-day
+  std::string camera;         ///< position, focal point, view up, angle
+  bool on_processor = false;  ///< times are those on the processor, not the clock's
 };
 
 /// Points measured elsewhere, by family.
@@ -47,6 +48,9 @@ struct Chart {
 /// Puts together what follows from measured ways and from `others`' points.
 Chart make_chart(ChartSubject subject, ChartMeasurement measurement,
                  const std::vector<ChartPoint>& others);
+
+/// "1,000 cells (grid), 'Density', 640 x 480 pixels, 2 threads, ...", for titles.
+std::string describe(const ChartSubject& subject);
 
 /// The processor's name, "unknown processor" where the system does not say.
 std::string processor_name();

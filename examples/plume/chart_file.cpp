@@ -220,6 +220,7 @@ std::string chart_json(const Chart& chart) {
                         {"threads", subject.threads},
                         {"processor", subject.processor},
                         {"rounds", subject.rounds},
+                        {"time", subject.on_processor ? "processor" : "clock"},
                         {"reference_seconds", chart.reference_seconds},
                         {"ways", ways},
                         {"front", front},

@@ -34,6 +34,7 @@ struct ChartProgress {
 /// All of a chart's own points.
 struct ChartMeasurement {
   std::vector<MeasuredWay> ways;
+  bool on_processor = false;     ///< times are not the clock's: see measure_ways()
   double reference_seconds = 0;  ///< for the picture that all are compared with
 };
 
@@ -41,7 +42,8 @@ struct ChartMeasurement {
 /// up, and then all of them in turns, `rounds` times (ways that take seconds three times at most),
 /// so that what slows the machine down slows all of them. A way's table is built before its frames
 /// are timed; where that takes longer than these, it is built once and they are timed in a row.
-/// A channel that is not a number counts as an error of 1.
+/// With one thread it is the process' time on the processor that is taken, which does not mind what
+/// else runs; with several, the clock's. A channel that is not a number counts as an error of 1.
 ChartMeasurement measure_ways(const Scene& scene, const Camera& camera, const RenderSettings& base,
                               std::vector<ChartWay> ways, int rounds,
                               const std::function<void(const ChartProgress&)>& progress);

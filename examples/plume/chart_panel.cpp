@@ -61,11 +61,14 @@ std::string ChartPanel::axes(const std::string& title, bool times_labelled) cons
       1 - area_.top / kChartHeight, 1 - (area_.top + area_.height) / kChartHeight);
   made += fmt::format("set xrange [{}:{}]\nset yrange [{}:{}]\n", std::pow(10, left_),
                       std::pow(10, right_), std::pow(10, bottom_), std::pow(10, top_));
+  // 1, 2 and 5 of each decade, or 1 alone where these would run into each other.
+  const bool close = area_.width / (right_ - left_) < 150;
   std::string times;
   for (int decade = static_cast<int>(std::floor(left_)); decade <= right_; ++decade)
     for (const int digit : {1, 2, 5}) {
       const double at = digit * std::pow(10, decade);
-      times += fmt::format("{}'{:g}' {:g}", times.empty() ? "" : ", ", at, at);
+      times += fmt::format("{}'{}' {:g}", times.empty() ? "" : ", ",
+                           close && digit > 1 ? "" : fmt::format("{:g}", at), at);
     }
   std::string errors;
   for (double decade = lowest_; decade <= top_; ++decade)

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "console.h"
-
 namespace plume::command {
 namespace {
 
@@ -48,6 +46,22 @@ std::string planned_table(const Chart& chart) {
   return text;
 }
 
+// Points of others that none of ours beats, whatever their error.
+std::string unbeaten(const Chart& chart) {
+  std::string text;
+  std::size_t all = 0;
+  for (const PeerFamily& family : chart.peers)
+    for (const ChartPoint& point : family.points) {
+      ++all;
+      const auto better = fastest_within(chart.points, point.max_error);
+      if (!better || !dominates(chart.points[*better], point))
+        text += fmt::format("  {}: {}, {:.1f} ms, error {:.1e}\n", family.name, point.method,
+                            point.milliseconds, point.max_error);
+    }
+  if (text.empty()) return fmt::format("all {} points of others are dominated by ours\n", all);
+  return fmt::format("of {} points of others, not dominated by ours:\n{}", all, text);
+}
+
 std::string peers_table(const Chart& chart) {
   std::string text;
   for (const PeerFamily& family : chart.peers) {
@@ -64,20 +78,16 @@ std::string peers_table(const Chart& chart) {
                           at.factor ? fmt::format("; {:.2f} times as long", *at.factor) : "");
     }
   }
-  return text;
+  return text + unbeaten(chart);
 }
 
 }  // namespace
 
 std::string chart_report(const Chart& chart) {
-  const ChartSubject& on = chart.subject;
-  return fmt::format(
-             "{}: {} cells ({}), '{}', {} x {} pixels, {} thread{}, {}; medians of {} frames in "
-             "turns\n\n",
-             on.mesh, with_separators(on.cells), on.form, on.field, on.width, on.height, on.threads,
-             on.threads == 1 ? "" : "s", on.processor, on.rounds) +
-         ways_table(chart) + "\n" + planned_table(chart) + (chart.peers.empty() ? "" : "\n") +
-         peers_table(chart);
+  std::string text = fmt::format("{}: {}\n\n{}\n{}", chart.subject.mesh, describe(chart.subject),
+                                 ways_table(chart), planned_table(chart));
+  if (!chart.peers.empty()) text.append(1, '\n').append(peers_table(chart));
+  return text;
 }
 
 }  // namespace plume::command

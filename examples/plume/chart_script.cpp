@@ -8,7 +8,6 @@
 #include <map>
 
 #include "chart_panel.h"
-#include "console.h"
 
 namespace plume::command {
 namespace {
@@ -111,14 +110,8 @@ class Script {
   }
 
   void heading() {
-    const ChartSubject& on = chart_.subject;
-    label(40, 28, fmt::format("{}: error against time", on.mesh), 15, "#111111");
-    label(40, 56,
-          fmt::format("{} cells ({}), '{}', {} x {} pixels, {} thread{}, {}, {}; medians of {} "
-                      "frames in turns",
-                      with_separators(on.cells), on.form, on.field, on.width, on.height, on.threads,
-                      on.threads == 1 ? "" : "s", on.processor, on.date, on.rounds),
-          10, kGray);
+    label(40, 28, chart_.subject.mesh + ": error against time", 15, "#111111");
+    label(40, 56, describe(chart_.subject), 10, kGray);
   }
 
   std::string color_of(std::size_t way) const {

@@ -1,5 +1,7 @@
 #include "plume/tests/bench/interleaved.h"
 
+#include <algorithm>
+
 #include "plume/tests/bench/timing.h"
 
 namespace plume::bench {
@@ -17,10 +19,11 @@ std::vector<std::vector<double>> take_turns(std::span<const std::function<void()
 }
 
 std::vector<WalkerTimes> measure(const BenchMesh& mesh, const std::vector<BenchView>& views,
-                                 Mode mode, int rounds) {
+                                 Mode mode, int rounds, const std::vector<std::string>& names) {
   std::vector<WalkerTimes> times;
   for (const BenchWalker& walker : walkers(mesh.family))
-    if (walker.has(mode))
+    if (walker.has(mode) &&
+        (names.empty() || std::find(names.begin(), names.end(), walker.name) != names.end()))
       times.push_back(
           {&walker, 0, std::vector<double>(static_cast<std::size_t>(rounds), 0), {}, 0, {}});
 

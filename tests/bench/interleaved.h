@@ -34,9 +34,9 @@ struct WalkerTimes {
   double million_cells_per_second() const { return static_cast<double>(cells) / seconds * 1e-6; }
 };
 
-/// Times all walkers of the mesh's family that have the mode, view by view, in turns. Before that,
-/// each walks once, which is compared with the reference.
+/// Times all walkers of the mesh's family that have the mode, or those of them that are named, view
+/// by view, in turns. Before that, each walks once, which is compared with the reference.
 std::vector<WalkerTimes> measure(const BenchMesh& mesh, const std::vector<BenchView>& views,
-                                 Mode mode, int rounds);
+                                 Mode mode, int rounds, const std::vector<std::string>& names = {});
 
 }  // namespace plume::bench

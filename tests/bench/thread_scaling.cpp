@@ -16,9 +16,6 @@
 namespace plume::bench {
 namespace {
 
-// All of the process' threads, on the processor.
-double process_seconds() { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); }
-
 // What is left when nothing else disturbs.
 double least(const std::vector<double>& values) {
   return *std::min_element(values.begin(), values.end());

@@ -16,6 +16,8 @@ inline double seconds_of(clockid_t clock) {
 }
 /// This thread's time on the processor.
 inline double thread_seconds() { return seconds_of(CLOCK_THREAD_CPUTIME_ID); }
+/// That of all of the process' threads, on the processor.
+inline double process_seconds() { return seconds_of(CLOCK_PROCESS_CPUTIME_ID); }
 inline double wall_seconds() { return seconds_of(CLOCK_MONOTONIC); }
 
 /// Requires a value.

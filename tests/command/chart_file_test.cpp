@@ -106,6 +106,8 @@ TEST(ChartFile, TheReportSaysWhatIsDominatedAndByWhat) {
             std::string::npos)
       << report;
   EXPECT_NE(report.find("1e-03: no point; ours no point"), std::string::npos) << report;
+  EXPECT_NE(report.find("all 1 points of others are dominated by ours"), std::string::npos)
+      << report;
 }
 
 TEST(ChartFile, NamesWithQuotationMarksStayTextForGnuplot) {

@@ -129,11 +129,11 @@ int main(int argc, char** argv) {
     std::vector<ScalingSeries> everything;
     for (const ScalingAxis* axis : wanted) {
       print(fmt::format("\n## {}\n\n{}\n", axis->name, axis->what));
-      for (const ScalingSeries& series : axis->measure(options)) {
+      axis->measure(options, [&](const ScalingSeries& series) {
         print(fmt::format("\n### {}: {}\n\n{}", axis->name, series.name, as_markdown(series)));
         csv.add(as_csv(series));
         everything.push_back(series);
-      }
+      });
     }
     print("\n## All exponents\n\n" + exponents_as_markdown(everything));
   } catch (const plume::Error& error) {

@@ -67,9 +67,8 @@ struct Subject {
 
 }  // namespace
 
-std::vector<ScalingSeries> scale_depth(const ScalingOptions& options) {
+void scale_depth(const ScalingOptions& options, const SeriesMade& made) {
   const int pixels = options.quick ? 32 : 512, size = options.quick ? 4 : 32;
-  std::vector<ScalingSeries> all;
   for (const bool hexahedra : {false, true}) {
     Subject subject;
     for (int layers = options.quick ? 2 : 8; layers <= (options.quick ? 8 : 512); layers *= 2) {
@@ -83,7 +82,7 @@ std::vector<ScalingSeries> scale_depth(const ScalingOptions& options) {
                          {}};
     for (const FrameCost& cost : frame_costs(subject.frames, options.rounds))
       series.points.push_back({cost.cells_per_ray, {1e3 * cost.seconds, cost.ns_per_cell()}});
-    all.push_back(std::move(series));
+    made(series);
   }
   Subject subject;
   for (int slabs = 1; slabs <= size; slabs *= 2) subject.add(sliced_cube(slabs, size), pixels);
@@ -95,8 +94,7 @@ std::vector<ScalingSeries> scale_depth(const ScalingOptions& options) {
   for (const FrameCost& cost : frame_costs(subject.frames, options.rounds))
     series.points.push_back(
         {cost.entries_per_ray, {cost.cells_per_ray, 1e3 * cost.seconds, cost.ns_per_cell()}});
-  all.push_back(std::move(series));
-  return all;
+  made(series);
 }
 
 }  // namespace plume::bench

@@ -44,8 +44,7 @@ TransferFunction random_knots(const Scene& scene, int count) {
 
 }  // namespace
 
-std::vector<ScalingSeries> scale_pixels(const ScalingOptions& options) {
-  std::vector<ScalingSeries> all;
+void scale_pixels(const ScalingOptions& options, const SeriesMade& made) {
   for (const std::string& kind : kKinds) {
     Scene scene(unit_cube(kind, cells_of(options)));
     scene.set_transfer_function(seven_knots(scene));
@@ -61,13 +60,11 @@ std::vector<ScalingSeries> scale_pixels(const ScalingOptions& options) {
           {pixels,
            {1e3 * costs[i].seconds, 1e9 * costs[i].seconds / pixels, costs[i].ns_per_cell()}});
     }
-    all.push_back(std::move(series));
+    made(series);
   }
-  return all;
 }
 
-std::vector<ScalingSeries> scale_threads(const ScalingOptions& options) {
-  std::vector<ScalingSeries> all;
+void scale_threads(const ScalingOptions& options, const SeriesMade& made) {
   const int most = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   for (const std::string& kind : kKinds) {
     const Mesh mesh = unit_cube(kind, cells_of(options));
@@ -84,7 +81,7 @@ std::vector<ScalingSeries> scale_threads(const ScalingOptions& options) {
       tasks.emplace_back([&frame, &mesh] {
         const tbb::global_control limit(tbb::global_control::max_allowed_parallelism,
                                         static_cast<std::size_t>(frame.settings.threads));
-        const Scene made(mesh);
+        const Scene built(mesh);
       });
     }
     const auto seconds = take_turns(tasks, options.rounds, wall_seconds);
@@ -92,13 +89,11 @@ std::vector<ScalingSeries> scale_threads(const ScalingOptions& options) {
     for (std::size_t i = 0; i < frames.size(); ++i)
       series.points.push_back({static_cast<double>(frames[i].settings.threads),
                                {1e3 * median(seconds[2 * i]), 1e3 * median(seconds[2 * i + 1])}});
-    all.push_back(std::move(series));
+    made(series);
   }
-  return all;
 }
 
-std::vector<ScalingSeries> scale_knots(const ScalingOptions& options) {
-  std::vector<ScalingSeries> all;
+void scale_knots(const ScalingOptions& options, const SeriesMade& made) {
   const std::vector<double> meshes =
       options.quick ? std::vector<double>{3e3} : std::vector<double>{3e4, 1e6};
   for (const double cells : meshes) {
@@ -119,9 +114,8 @@ std::vector<ScalingSeries> scale_knots(const ScalingOptions& options) {
     for (std::size_t i = 0; i < frames.size(); ++i)
       series.points.push_back({static_cast<double>(scenes[i]->transfer_function().knots.size()),
                                {1e3 * costs[i].seconds, costs[i].ns_per_cell()}});
-    all.push_back(std::move(series));
+    made(series);
   }
-  return all;
 }
 
 }  // namespace plume::bench

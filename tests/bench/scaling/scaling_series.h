@@ -1,6 +1,7 @@
 /// How cost grows: what plume_scaling measures.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -38,18 +39,21 @@ std::string exponents_as_markdown(const std::vector<ScalingSeries>& all);
 /// One line a value: axis,series,x,quantity,value. No header.
 std::string as_csv(const ScalingSeries& series);
 
+/// Called with each series as soon as it is measured: the long runs may be cut short.
+using SeriesMade = std::function<void(const ScalingSeries& series)>;
+
 struct ScalingAxis {
   std::string name;
   /// What is varied and what is not, in markdown.
   std::string what;
-  std::vector<ScalingSeries> (*measure)(const ScalingOptions& options);
+  void (*measure)(const ScalingOptions& options, const SeriesMade& made);
 };
 const std::vector<ScalingAxis>& scaling_axes();
 
-std::vector<ScalingSeries> scale_cells(const ScalingOptions& options);
-std::vector<ScalingSeries> scale_pixels(const ScalingOptions& options);
-std::vector<ScalingSeries> scale_threads(const ScalingOptions& options);
-std::vector<ScalingSeries> scale_knots(const ScalingOptions& options);
-std::vector<ScalingSeries> scale_depth(const ScalingOptions& options);
+void scale_cells(const ScalingOptions& options, const SeriesMade& made);
+void scale_pixels(const ScalingOptions& options, const SeriesMade& made);
+void scale_threads(const ScalingOptions& options, const SeriesMade& made);
+void scale_knots(const ScalingOptions& options, const SeriesMade& made);
+void scale_depth(const ScalingOptions& options, const SeriesMade& made);
 
 }  // namespace plume::bench
