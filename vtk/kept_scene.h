@@ -38,7 +38,7 @@ class KeptScene {
   /// that `choose` names. An array of several components needs `component`: from 0, or -1 for the
   /// magnitude. Arrays are borrowed where their types allow it. Where points and cells are those
   /// of last time, no more is done than to put in the field's values.
-  /// Throws Error, and keeps nothing, where there are no volume cells or no such array.
+  /// Throws Error where there are no volume cells or no such array.
   Scene& update(vtkDataObject& data, const Choose& choose, const std::optional<int>& component,
                 const Notice& notice);
 

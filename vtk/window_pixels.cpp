@@ -5,11 +5,16 @@
 #include <vtkOpenGLState.h>
 #include <vtkRenderer.h>
 #include <vtkTextureObject.h>
+#if __has_include(<vtk_glew.h>)
 #include <vtk_glew.h>
+#else  // from VTK 9.4 on
+#include <vtk_glad.h>
+#endif
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <string>
 
 #include "plume/mesh/error.h"
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "plume/datasets/generate.h"
 #include "plume/lib/plume.h"
@@ -317,6 +318,9 @@ TEST(Camera, NamesWhatMakesNoPicture) {
   camera.parallel = true;
   camera.parallel_scale = std::numeric_limits<double>::quiet_NaN();
   EXPECT_NE(error_of({}, camera).find("a parallel scale of nan"), std::string::npos);
+  camera = {};
+  camera.window_center[1] = std::numeric_limits<double>::infinity();
+  EXPECT_NE(error_of({}, camera).find("the window centre (0, inf)"), std::string::npos);
 }
 
 TEST(Camera, FitsTheBounds) {
@@ -356,6 +360,28 @@ TEST(Camera, FitsTheBounds) {
           EXPECT_TRUE(inside(top)) << view << ' ' << aspect << ' ' << parallel;
         }
       }
+}
+
+TEST(Camera, ShowsAPartOfALargerPictureWithItsWindowBesideTheLineOfSight) {
+  for (const bool parallel : {false, true}) {
+    Camera camera;
+    camera.position = {2, 1, 3};
+    camera.parallel = parallel;
+    // The upper right quarter: half as high, its middle half of its own size off.
+    Camera quarter = camera;
+    quarter.view_angle =
+        2 * std::atan(std::tan(camera.view_angle / 2 * M_PI / 180) / 2) * 180 / M_PI;
+    quarter.parallel_scale = camera.parallel_scale / 2;
+    quarter.window_center = {1, 1};
+    const PixelRays whole(camera, 80, 60), part(quarter, 40, 30);
+    for (const auto& [x, y] : {std::pair{0.5, 0.5}, std::pair{39.5, 29.5}, std::pair{12.0, 25.0}}) {
+      const Ray expected = whole(40 + x, y), ray = part(x, y);
+      for (std::size_t a = 0; a < 3; ++a) {
+        EXPECT_NEAR(ray.origin[a], expected.origin[a], 1e-12);
+        EXPECT_NEAR(ray.direction[a], expected.direction[a], 1e-12);
+      }
+    }
+  }
 }
 
 TEST(Camera, OrbitsAndZooms) {

@@ -105,24 +105,6 @@ TEST(VtkImageFilter, FollowsTheCamera) {
   EXPECT_EQ(filter->GetMeshesMade(), 1);
 }
 
-TEST(VtkImageFilter, PartsOfALargerPictureAreThoseOfIt) {
-  const Mesh mesh = generate("box-tetrahedra", {6, 0.2, 3});
-  RenderSettings large = settings();
-  large.width = 2 * kWidth;
-  large.height = 2 * kHeight;
-  const Image whole = picture_of(mesh, bump(), aside(), large);
-  // The upper right quarter: half the angle's tangent, its middle one half off.
-  Camera quarter = aside();
-  quarter.view_angle =
-      2 * std::atan(std::tan(quarter.view_angle / 2 * M_PI / 180) / 2) * 180 / M_PI;
-  quarter.window_center = {1, 1};
-  const Image part = picture_of(mesh, bump(), quarter, settings());
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
-      for (int c = 0; c < 4; ++c)
-        ASSERT_NEAR(part.pixel(x, y)[c], whole.pixel(kWidth + x, y)[c], kRounding);
-}
-
 TEST(VtkImageFilter, MakesNoMoreAnewThanHasChanged) {
   const Mesh mesh = generate("box-tetrahedra", {6, 0.2, 3});
   const auto data = in_vtk(mesh);
