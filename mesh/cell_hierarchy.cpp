@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "plume/mesh/leaf_cells.h"
+#include "plume/mesh/leaf_summary.h"
 
 namespace plume {
 namespace {
@@ -16,73 +16,15 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 constexpr std::size_t kLeaf = kLeafCells;
 
-// A bit for each cell whose volume is not positive, or that is somewhere thinner than kLeastWidth.
-// A cell's width is six times its volume divided by twice the area of a face, or by the cross
-// product of two opposite edges. Rounding is far below what a point may be moved by.
-unsigned thin_cells(const LeafCells& p) {
-  constexpr float kSquared = kLeastWidth * kLeastWidth;
-  alignas(64) int wide[kLeaf];
-  for (std::size_t i = 0; i < kLeaf; ++i) {
-    const float ax = p.position[0][1][i] - p.position[0][0][i],
-                ay = p.position[1][1][i] - p.position[1][0][i];
-    const float az = p.position[2][1][i] - p.position[2][0][i];
-    const float bx = p.position[0][2][i] - p.position[0][0][i],
-                by = p.position[1][2][i] - p.position[1][0][i];
-    const float bz = p.position[2][2][i] - p.position[2][0][i];
-    const float cx = p.position[0][3][i] - p.position[0][0][i],
-                cy = p.position[1][3][i] - p.position[1][0][i];
-    const float cz = p.position[2][3][i] - p.position[2][0][i];
-    const float abx = ay * bz - az * by, aby = az * bx - ax * bz, abz = ax * by - ay * bx;
-    const float bcx = by * cz - bz * cy, bcy = bz * cx - bx * cz, bcz = bx * cy - by * cx;
-    const float cax = cy * az - cz * ay, cay = cz * ax - cx * az, caz = cx * ay - cy * ax;
-    const float sign = (p.odd >> i & 1) != 0 ? -1.0f : 1.0f;
-    const float volume = sign * (abx * cx + aby * cy + abz * cz);
-    auto squared = [](float x, float y, float z) { return x * x + y * y + z * z; };
-    const float squares[7] = {squared(abx, aby, abz),
-                              squared(bcx, bcy, bcz),
-                              squared(cax, cay, caz),
-                              squared(abx + bcx, aby + bcy, abz + bcz),
-                              squared(bcx + cax, bcy + cay, bcz + caz),
-                              squared(cax + abx, cay + aby, caz + abz),
-                              squared(abx + bcx + cax, aby + bcy + cay, abz + bcz + caz)};
-    float largest = squares[0];
-    for (std::size_t s = 1; s < 7; ++s) largest = squares[s] > largest ? squares[s] : largest;
-    wide[i] =
-        static_cast<int>(volume > 0) & static_cast<int>(volume * volume >= kSquared * largest);
-  }
-  unsigned thin = 0;
-  for (std::size_t i = 0; i < kLeaf; ++i) thin |= (wide[i] != 0 ? 0u : 1u) << i;
-  return thin;
-}
-
-// Halving, so that compilers use vectors. Destroys the values.
-float least_of(float* values) {
-  for (std::size_t half = kLeaf / 2; half > 0; half /= 2)
-    for (std::size_t i = 0; i < half; ++i)
-      values[i] = values[half + i] < values[i] ? values[half + i] : values[i];
-  return values[0];
-}
-float greatest_of(float* values) {
-  for (std::size_t half = kLeaf / 2; half > 0; half /= 2)
-    for (std::size_t i = 0; i < half; ++i)
-      values[i] = values[half + i] > values[i] ? values[half + i] : values[i];
-  return values[0];
-}
-
 struct Cluster {
   std::array<float, 3> low{kInfinity, kInfinity, kInfinity};
   std::array<float, 3> high{-kInfinity, -kInfinity, -kInfinity};
   float least = kInfinity, greatest = -kInfinity;
   bool special = false;
 
-  void add(const LeafCells& cells) {
-    float lows[kLeaf], highs[kLeaf];
-    for (std::size_t a = 0; a < 3; ++a) {
-      LeafCells::bound(cells.position[a], lows, highs);
-      low[a] = least_of(lows);
-      high[a] = greatest_of(highs);
-    }
-  }
+  Cluster() = default;
+  explicit Cluster(const LeafSummary& leaf)
+      : low(leaf.low), high(leaf.high), least(leaf.least), greatest(leaf.greatest) {}
 
   // What is missing is never looked at, wherever its box is.
   void put(CellHierarchy::Node& node, std::size_t child) const {
@@ -108,29 +50,6 @@ Cluster joined(const CellHierarchy::Node& node, std::size_t children) {
     all.greatest = std::max(all.greatest, node.greatest[c]);
   }
   return all;
-}
-
-// The leaf's range, and the cells' in sixteenths of it.
-void take_ranges(const LeafCells& cells, Cluster& cluster, CellHierarchy::Leaf& leaf) {
-  float least[kLeaf], greatest[kLeaf], lows[kLeaf], highs[kLeaf];
-  LeafCells::bound(cells.scalar, least, greatest);
-  for (std::size_t i = 0; i < kLeaf; ++i) widen_range(least[i], greatest[i]);
-  // Where a cell has no value, widening makes NaN, which is never less than anything.
-  for (std::size_t i = 0; i < kLeaf; ++i) {
-    lows[i] = least[i] < kInfinity ? least[i] : kInfinity;
-    highs[i] = greatest[i] > -kInfinity ? greatest[i] : -kInfinity;
-  }
-  cluster.least = least_of(lows);
-  cluster.greatest = greatest_of(highs);
-  const CellHierarchy::Sixteenths sixteenths(cluster.least, cluster.greatest);
-  int first[kLeaf], last[kLeaf];
-  for (std::size_t i = 0; i < kLeaf; ++i) {
-    first[i] = sixteenths.of(least[i]);
-    last[i] = sixteenths.of(greatest[i]);
-  }
-  for (std::size_t i = 0; i < kLeaf; ++i)
-    leaf.ranges[i] =
-        static_cast<std::uint8_t>(least[i] <= greatest[i] ? first[i] | last[i] << 4 : 15);
 }
 
 std::uint32_t first_boundary(const WalkableTets& mesh, std::uint32_t leaf) {
@@ -181,13 +100,13 @@ CellHierarchy make_cell_hierarchy(const WalkableTets& mesh) {
     kept.first_boundary = first_boundary(mesh, number);
     LeafCells cells;
     cells.read(mesh, number, kept.first_boundary);
-    const unsigned thin = thin_cells(cells), special = cells.boundary | thin;
+    const LeafSummary summary = summarize(cells);
+    const unsigned special = cells.boundary | summary.thin;
     kept.special = static_cast<std::uint16_t>(special);
-    kept.thin = static_cast<std::uint16_t>(thin);
-    Cluster cluster;
-    cluster.add(cells);
+    kept.thin = static_cast<std::uint16_t>(summary.thin);
+    kept.ranges = summary.ranges;
+    Cluster cluster(summary);
     cluster.special = special != 0;
-    take_ranges(cells, cluster, kept);
     return cluster;
   });
   for (std::size_t level = 1; level + 1 < sizes.size(); ++level)

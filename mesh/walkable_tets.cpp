@@ -87,9 +87,11 @@ std::array<std::uint32_t, 4> WalkableTets::points_of(std::uint32_t cell) const {
   if (boundary_or_twice) return points_of_rare(cell);
   auto back = [&](std::uint32_t neighbor) {
     const Cell& links = cells[neighbor];
-    const std::uint32_t low = links[0].cell == cell ? links[0].apex : links[1].apex;
-    const std::uint32_t high = links[2].cell == cell ? links[2].apex : links[3].apex;
-    return links[0].cell == cell || links[1].cell == cell ? low : high;
+    // One link alone leads back. Compilers make branches of what is written as a choice.
+    std::uint32_t apex = 0;
+    for (const Link& link : links)
+      apex |= link.apex & (0u - static_cast<unsigned>(link.cell == cell));
+    return apex;
   };
   return {back(n0), back(n1), back(n2), back(n3)};
 }

@@ -107,7 +107,17 @@ void OtherMeshes::choose_looks(SeriesScene& main) {
     alike.push_back(&other->scene);
     other->sample = {};
   }
-  FittedLook fitted{fitted_color_map(values), 0};
+  // Of those that are going to change, all that is known of what they will be.
+  std::optional<std::array<double, 2>> range;
+  if (std::any_of(alike.begin(), alike.end(), [](auto* scene) { return scene->color_range(); })) {
+    for (const SeriesScene* scene : alike) {
+      const auto own = scene->color_range().value_or(
+          std::array<double, 2>{scene->values()[0], scene->values()[1]});
+      range =
+          range ? std::array{std::min((*range)[0], own[0]), std::max((*range)[1], own[1])} : own;
+    }
+  }
+  FittedLook fitted{fitted_color_map(values, range), 0};
   for (const SeriesScene* scene : alike)
     fitted.unit_distance = std::max(fitted.unit_distance, scene->scene().default_unit_distance());
   for (SeriesScene* scene : alike) scene->choose_look(fitted);

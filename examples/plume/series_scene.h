@@ -50,6 +50,8 @@ class SeriesScene {
 
   /// The least and greatest value of all steps shown.
   const std::array<float, 2>& values() const { return values_; }
+  /// What values there are going to be, where that is known and colours are fitted to it.
+  const std::optional<std::array<double, 2>>& color_range() const { return options_.color_range; }
   /// What the transfer function was fitted to, in words; empty where it was given.
   const std::string& fitted_to() const { return fitted_to_; }
 

@@ -234,6 +234,9 @@ ok "its step and time are in the picture" grep -qa "plume:step" alone.png
 ok "steps without reading ahead" "$plume" render street.pvd --time 1:5:2 --no-read-ahead $one -o some_%d.png --quiet --stats some.json
 ok "are the same" cmp some_1.png all_03.png
 ok "are those that were asked for" json some.json "[f['step'] for f in j['frames']]==[1,3,5]"
+ok "two series side by side, and a mesh that stays" "$plume" render street.pvd --time 3: --with street.pvd:velocity --with box.vtu:radius --size 20x20 -o side_%d.png --stats side.json
+ok "all three in each picture" json side.json "len(j['frames'])==3 and all([o['mesh'] for o in f['with']]==['street.pvd','box.vtu'] and f['lost_rays']==0 for f in j['frames'])"
+refused "a series beside fewer steps" 1 "--with 'street.pvd:vorticity'|6 time steps beside the 1 of box.vtu" "$plume" render box.vtu --with street.pvd:vorticity -o x.png --quiet
 ok "an open range" "$plume" render street.pvd --time 4: $one -o open_%d.png --quiet --stats some.json
 ok "goes to the end" json some.json "[f['step'] for f in j['frames']]==[4,5]"
 ok "files by a pattern, by number" "$plume" render 'street_*.vtu' --time all --size 20x20 -o p_%02d.png --stats p.json
