@@ -37,7 +37,7 @@ if command -v gnuplot >/dev/null; then
 else
   echo "SKIPPED: no gnuplot (Debian: gnuplot-nox): pictures of charts are NOT tested"
 fi
-"$plume" chart mixed.vtu --quick --size 40x30 --also peers.csv "${outputs[@]}" >report.txt 2>err.txt ||
+"$plume" chart mixed.vtu --quick --threads 1 --size 40x30 --also peers.csv "${outputs[@]}" >report.txt 2>err.txt ||
   fail "no chart: $(cat err.txt)"
 grep -q 'timing them takes about' err.txt || fail "no estimate: $(cat err.txt)"
 for words in 'the reference' 'order 2' 'tolerance 1e-3' 'dominated by' 'peer, milliseconds' 'no point'; do
@@ -68,7 +68,7 @@ if command -v gnuplot >/dev/null; then
     fail "a.svg has not the text it should"
 fi
 # Another chart's points are a peer of their own.
-"$plume" chart box.vtu --quick --size 20x15 --rounds 1 --also a.csv --quiet -o b.csv >out.txt 2>err.txt ||
+"$plume" chart box.vtu --quick --threads 1 --size 20x15 --rounds 1 --also a.csv --quiet -o b.csv >out.txt 2>err.txt ||
   fail "no second chart: $(cat err.txt)"
 [ ! -s out.txt ] && [ ! -s err.txt ] || fail "quiet is not quiet"
 grep -q 'plume (a)' b.csv || fail "points of another chart are taken for ours"
@@ -84,7 +84,7 @@ grep -q 'gnuplot-nox' err.txt || fail "the missing package is not named: $(cat e
 mkdir broken
 printf '#!/bin/sh\necho "no such terminal" >&2\nexit 1\n' >broken/gnuplot
 chmod +x broken/gnuplot
-PATH=$work/broken:$PATH "$plume" chart box.vtu --quick --size 8x6 --rounds 1 --quiet -o x.png 2>err.txt &&
+PATH=$work/broken:$PATH "$plume" chart box.vtu --quick --threads 1 --size 8x6 --rounds 1 --quiet -o x.png 2>err.txt &&
   fail "a picture by a broken gnuplot"
 grep -q 'x.png: gnuplot could not draw it: no such terminal' err.txt || fail "what gnuplot says is not said: $(cat err.txt)"
 compgen -G 'x.*' >/dev/null && fail "left behind: $(ls x.*)"
