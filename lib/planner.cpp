@@ -19,10 +19,13 @@ struct Candidate {
   ScalarOrder order;
   double scalar_tolerance;
 };
-constexpr std::array<Candidate, 7> kCandidates{{{ScalarOrder::linear, 1e-4},
+// As they cost, on the charts of docs/choosing.md.
+constexpr std::array<Candidate, 9> kCandidates{{{ScalarOrder::linear, 1e-4},
                                                 {ScalarOrder::quadratic, 1e-3},
                                                 {ScalarOrder::quadratic, 1e-4},
+                                                {ScalarOrder::quadratic, 1e-5},
                                                 {ScalarOrder::cubic, 1e-4},
+                                                {ScalarOrder::cubic, 1e-5},
                                                 {ScalarOrder::adaptive, 1e-4},
                                                 {ScalarOrder::adaptive, 1e-5},
                                                 {ScalarOrder::adaptive, 1e-6}}};
@@ -74,7 +77,7 @@ void choose_order(const Scene& scene, const Camera& camera, RenderSettings& sett
   std::string tried;
   settings.order = ScalarOrder::adaptive;  // none tried yet
   for (const Candidate& candidate : kCandidates) {
-    if (candidate.scalar_tolerance < reference.scalar_tolerance) break;
+    if (candidate.scalar_tolerance < reference.scalar_tolerance) continue;
     // Whoever asks no optics sees no linear parts.
     if (candidate.order == settings.order && candidate.order != ScalarOrder::adaptive &&
         !has_optics(settings.mode))

@@ -15,6 +15,7 @@
 #include "chart_file.h"
 #include "chart_plot.h"
 #include "chart_report.h"
+#include "chart_walkers.h"
 #include "commands.h"
 #include "console.h"
 #include "parse.h"
@@ -169,6 +170,8 @@ void run(const ChartArguments& args) {
   const Camera camera = choose_camera(scene.visible_bounds(), args.picture, aspect_ratio);
   const int rounds = args.rounds > 0 ? args.rounds : args.quick ? 2 : 5;
   std::vector<ChartWay> ways = chart_ways(scene, settings, args.quick);
+  if (!args.quick)
+    for (ChartWay& way : other_walkers(scene, camera, settings)) ways.push_back(std::move(way));
   for (ChartWay& way : planned_ways(scene, camera, settings)) ways.push_back(std::move(way));
   console.say(fmt::format("{}: {} cells ({}), {} ways to make {} x {} pixels, {} rounds",
                           args.picture.mesh, with_separators(scene.cell_count()), scene.form(),

@@ -82,6 +82,11 @@ class Measurer {
     return watch.lap();
   }
 
+  Image picture_of(std::size_t i) const {
+    const ChartWay& way = result_.ways[i].way;
+    return way.draw ? way.draw(way.settings) : render(scene_, camera_, way.settings).image;
+  }
+
   void measure_first(std::size_t i, const Image& reference) {
     MeasuredWay& measured = result_.ways[i];
     const double ways = static_cast<double>(result_.ways.size());
@@ -90,7 +95,7 @@ class Measurer {
           {}});
     measured.table_ms = build_table(i);
     Stopwatch watch;
-    const Image picture = render(scene_, camera_, measured.way.settings).image;
+    const Image picture = picture_of(i);
     first_[i] = watch.lap();
     const PictureError error = picture_error(picture, reference);
     measured.point = {measured.way.name, "plume", 0,
@@ -105,11 +110,11 @@ class Measurer {
   double frame(std::size_t i) const {
     if (result_.on_processor) {
       const std::clock_t start = std::clock();
-      render(scene_, camera_, result_.ways[i].way.settings);
+      picture_of(i);
       return 1e3 * static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
     }
     Stopwatch watch;
-    render(scene_, camera_, result_.ways[i].way.settings);
+    picture_of(i);
     return watch.lap();
   }
 

@@ -13,7 +13,8 @@ namespace plume::command {
 namespace {
 
 constexpr const char *kGray = "#555555", *kPlanner = "#d01c1f";
-constexpr std::array kKindColors{"#1f5fa8", "#63b0e8", "#e08214", "#2a9d4a", "#8e44ad", "#444444"};
+constexpr std::array kKindColors{"#1f5fa8", "#63b0e8", "#e08214", "#2a9d4a",
+                                 "#8e44ad", "#444444", "#c9a000"};
 constexpr std::array kPeerColors{"#8c510a", "#c51b7d", "#01665e", "#7b8a00",
                                  "#5e3c99", "#b2182b", "#35978f", "#bf812d"};
 // Gnuplot's numbers of filled shapes by order, and of crosses and stars for peers.

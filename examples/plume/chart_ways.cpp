@@ -164,6 +164,8 @@ const char* name_of(WayKind kind) {
       return "second-order table";
     case WayKind::quadrature:
       return "adaptive quadrature";
+    case WayKind::other_walker:
+      return "the thesis' walkers";
   }
   return "";
 }

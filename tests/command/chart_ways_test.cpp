@@ -7,6 +7,8 @@
 
 #include "plume/datasets/generate.h"
 #include "plume/examples/plume/chart_measure.h"
+#include "plume/examples/plume/chart_walkers.h"
+#include "plume/lib/picture_error.h"
 
 namespace plume::command {
 namespace {
@@ -77,6 +79,31 @@ TEST(ChartMeasure, TheReferenceHasNoErrorAndSamplesConverge) {
   EXPECT_LT(many, 0.25 * one);
   EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
   EXPECT_EQ(shares.back(), 1);
+}
+
+// By other decisions through the same grid: as near as single precision is, but for the triangles
+// of twisted faces.
+TEST(ChartWays, TheThesisWalkersSeeTheSameGrid) {
+  for (const double jitter : {0.0, 0.2}) {
+    const Scene scene(generate("box-hexahedra", {4, jitter, 1}));
+    const Camera camera = named_view("iso", scene.bounds());
+    const auto ways = other_walkers(scene, camera, small());
+    ASSERT_EQ(ways.size(), 4u);
+    for (const ChartWay& way : ways) {
+      const Image ours = render(scene, camera, way.settings).image;
+      const PictureError error = picture_error(way.draw(way.settings), ours);
+      const bool same_faces = jitter == 0 || way.name.ends_with("hybrid walker");
+      EXPECT_LT(error.largest, same_faces ? 1e-4 : 0.1) << way.name;
+      EXPECT_TRUE(same_faces || error.largest > 1e-3) << way.name;
+    }
+  }
+}
+
+TEST(ChartWays, TheThesisWalkersAreOfCurvilinearGridsAlone) {
+  for (const char* mesh : {"box-tetrahedra", "box-mixed", "box-rectilinear"}) {
+    const Scene scene(generate(mesh, {3, 0.2, 1}));
+    EXPECT_TRUE(other_walkers(scene, named_view("iso", scene.bounds()), small()).empty()) << mesh;
+  }
 }
 
 }  // namespace
