@@ -105,7 +105,8 @@ else()
   message(WARNING "VTK's OpenGL or libX11 is not installed (Debian: libvtk9-dev, libx11-dev): VTK's "
                   "projected tetrahedra are NOT compared with.")
 endif()
-# Written against its documentation; Debian 12 has no package, so that it is not built by the suite.
+# Written against their documentation and sources; Debian 12 has no packages, so that the suite does
+# not build them.
 find_package(openvkl 2 QUIET)
 if(openvkl_FOUND)
   target_sources(plume_peer_ways PRIVATE bench/openvkl_samples.cpp)
@@ -113,6 +114,14 @@ if(openvkl_FOUND)
   target_link_libraries(plume_peer_ways PRIVATE openvkl::openvkl openvkl::openvkl_module_cpu_device)
 else()
   message(STATUS "Open VKL 2 is not installed: its samples are not compared with.")
+endif()
+find_package(Viskores QUIET)
+if(TARGET viskores::rendering)
+  target_sources(plume_peer_ways PRIVATE bench/viskores_walk.cpp)
+  target_compile_definitions(plume_peer_ways PUBLIC PLUME_WITH_VISKORES)
+  target_link_libraries(plume_peer_ways PRIVATE viskores::rendering)
+else()
+  message(STATUS "Viskores is not installed: its walk is not compared with.")
 endif()
 add_executable(plume_peers
   bench/frame_scenes.cpp

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Measures all charts of docs/choosing.md anew, on a machine that does nothing else, and the reports that go with
-# them: DIRECTORY/NAME.png, .csv and .txt.
+# them: DIRECTORY/NAME.png, .csv and .txt, and NAME-peers.txt of other renderers.
 #
 #   charts.sh DIRECTORY BUILD [NAME...]      NAME: fin-hexahedra fin-tetrahedra combustor box-10M (all of them)
 #
@@ -49,6 +49,7 @@ chart() {
   "$bin/plume" chart "$mesh" "$@" --size "${size}x$size" --threads "$threads" --rounds "$rounds" "${also[@]}" \
     -o "$work/$name.png" -o "$work/$name.csv" >"$work/$name.txt"
   mv "$work/$name".{png,csv,txt} "$directory"
+  [ ! -e "$work/peers.txt" ] || mv "$work/peers.txt" "$directory/$name-peers.txt"
 }
 
 for name in $names; do

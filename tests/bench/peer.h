@@ -73,6 +73,8 @@ std::vector<PeerWay> embree_ways(const PeerScene& scene, bool quick);
 std::vector<PeerWay> voxel_ways(const PeerScene& scene, bool quick);
 /// Where built with Open VKL.
 std::vector<PeerWay> openvkl_ways(const PeerScene& scene, bool quick);
+/// Where built with Viskores.
+std::vector<PeerWay> viskores_ways(const PeerScene& scene, bool quick);
 
 /// Whether windows can be opened, as VTK's OpenGL needs it, which ends the program where they
 /// cannot.

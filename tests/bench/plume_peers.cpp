@@ -32,7 +32,7 @@ struct Arguments {
 };
 
 const std::vector<std::string> kFamilies{"ray-cast", "z-sweep", "projected", "locator",
-                                         "embree",   "voxels",  "openvkl"};
+                                         "embree",   "voxels",  "openvkl",   "viskores"};
 
 void add_options(CLI::App& app, Arguments& args) {
   command::RenderArguments& render = args.render;
@@ -152,6 +152,9 @@ int run(const Arguments& args) {
   add("voxels", [&] { return voxel_ways(peers, args.quick); });
 #ifdef PLUME_WITH_OPENVKL
   add("openvkl", [&] { return openvkl_ways(peers, args.quick); });
+#endif
+#ifdef PLUME_WITH_VISKORES
+  add("viskores", [&] { return viskores_ways(peers, args.quick); });
 #endif
   PeerTimings timings = args.timings;
   timings.say = [&](const std::string& line) { console.say(line); };
