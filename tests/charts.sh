@@ -23,8 +23,8 @@ command -v xvfb-run >/dev/null && on_a_screen=(xvfb-run -a)
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# Seven knots of extinction, as one draws them by hand: VTK looks knots up one by one, so that the hundreds
-# of a fitted colour map would slow it down. Over a unit distance their optical depths are 0 1 0.2 2 0.5 4 3.
+# Seven points of a colour map, as one draws them by hand; in linear colours they make 100 knots. VTK looks knots up
+# one by one, so that more would slow it down. Over a unit distance the points' optical depths are 0 1 0.2 2 0.5 4 3.
 cat >"$work/seven.json" <<'JSON'
 [{"Name": "seven knots", "ColorSpace": "RGB",
   "RGBPoints": [0, 0,0,1, 1, 0,0.5,1, 2, 0,1,0.3, 3, 0.6,1,0, 4, 1,0.7,0, 5, 1,0.2,0, 6, 0.8,0,0.4],
@@ -49,7 +49,8 @@ chart() {
   "$bin/plume" chart "$mesh" "$@" --size "${size}x$size" --threads "$threads" --rounds "$rounds" "${also[@]}" \
     -o "$work/$name.png" -o "$work/$name.csv" >"$work/$name.txt"
   mv "$work/$name".{png,csv,txt} "$directory"
-  [ ! -e "$work/peers.txt" ] || mv "$work/peers.txt" "$directory/$name-peers.txt"
+  [ ! -e "$work/peers.txt" ] ||
+    sed "s|$work/||g; s|$datasets/||g" "$work/peers.txt" >"$directory/$name-peers.txt"
 }
 
 for name in $names; do
