@@ -122,7 +122,7 @@ std::string intervals_table_1(const PaperOptions& options) {
   return fmt::format(
              R"(Section 8. Paper: 1024 x 1024 pixels, 2.33 GHz Intel Core2 Q8200, 4 GB, NVIDIA GeForce 9800GT with 512 MB, CUDA; empty
 space is skipped. Here: {0} x {0} pixels, one thread by its time on the processor, view iso, rays ended at a
-transmittance of 1e-4; of empty space nothing is skipped. Medians. The paper gives neither views nor transfer functions. All
+transmittance of 1e-4; empty space is skipped at order 3. Medians. The paper gives neither views nor transfer functions. All
 data sets are stand-ins of its sizes; one size that is hard to read in our text of the paper is taken as 256 x 256 x 110.
 
 DVR: a volume of five knots. DVR+IV: an interval volume and an isosurface besides. None: linear between a voxel's faces,
