@@ -152,7 +152,8 @@ struct RenderStatistics {
   /// Rays that found isosurfaces through the hierarchy of cells, without a walk; their
   /// `cells_visited` are those looked at.
   std::uint64_t rays_searched = 0;
-  /// Whether that hierarchy was made for this picture: once for each scene that needs it.
+  /// Whether that hierarchy, or a rectilinear grid's tree of ranges, was made for this picture:
+  /// once for each scene that needs it.
   bool hierarchy_made = false;
   std::uint64_t surfaces = 0;  ///< isosurfaces crossed, before rays ended
   std::uint64_t visits = 0;    ///< to interval volumes, before rays ended

@@ -128,6 +128,8 @@ class RectilinearWalker {
   }
   /// The axis, in the mesh's order, whose plane was crossed last.
   std::size_t entry_axis() const { return axes_[entry_].number; }
+  /// The cell's index along it.
+  std::uint32_t entry_index() const { return index_of(axes_[entry_]); }
 
   /// Goes on until a cell's index along some axis is no longer below `end` nor at least `begin`, of
   /// that axis of the mesh: where advance(), again and again, would be, bit for bit. False, and

@@ -28,8 +28,7 @@ TraceResult trace_ranges(const WalkableRectilinear& mesh, const RangeTree& tree,
   if (!walker.start(ray)) return result;
   result.entries = 1;
   const bool on_points = mesh.cell_values.empty();
-  if (!on_points) order = ScalarOrder::linear;
-  if (order == ScalarOrder::adaptive) order = ScalarOrder::cubic;
+  order = order_in(mesh, order);
   for (bool passed_over = false;;) {
     const std::array<std::uint32_t, 3> at = walker.indices();
     auto is_empty = [&](std::size_t level) {
@@ -55,22 +54,19 @@ TraceResult trace_ranges(const WalkableRectilinear& mesh, const RangeTree& tree,
     // The cells of one block.
     float s_in = on_points ? walker.entry_scalar() : 0;
     for (bool inside = true; inside;) {
-      const std::uint32_t cell = walker.cell();
       const float s_out = on_points ? walker.exit_scalar() : 0;
       ++result.cells;
-      Segment segment{walker.t_in(), walker.t_out(), s_in, s_out, cell};
-      if (!on_points) segment.s_in = segment.s_out = mesh.cell_values[cell];
-      take_scalar(walker, ray, order, segment);
-      if (!visit(static_cast<const Segment&>(segment))) {
+      const Segment segment = segment_in(mesh, walker, ray, order, s_in, s_out);
+      if (!visit(segment)) {
         result.end = WalkEnd::stopped;
         return result;
       }
       if (walker.t_out() >= walker.end()) return result;
       walker.advance();
       s_in = s_out;
+      // Only along the axis that was crossed has the index changed.
       const std::size_t a = walker.entry_axis();
-      const std::uint32_t index = walker.indices()[a];
-      inside = begin[a] <= index && index < end[a];
+      inside = begin[a] <= walker.entry_index() && walker.entry_index() < end[a];
     }
   }
 }

@@ -38,6 +38,22 @@ inline void take_scalar(const RectilinearWalker& walker, const Ray& ray, ScalarO
   }
 }
 
+/// The order of the scalar that a grid's segments have where this one is asked for.
+inline ScalarOrder order_in(const WalkableRectilinear& mesh, ScalarOrder asked) {
+  if (!mesh.cell_values.empty()) return ScalarOrder::linear;
+  return asked == ScalarOrder::adaptive ? ScalarOrder::cubic : asked;
+}
+
+/// The part of the ray in the walker's cell, between those scalars on points.
+inline Segment segment_in(const WalkableRectilinear& mesh, const RectilinearWalker& walker,
+                          const Ray& ray, ScalarOrder order, float s_in, float s_out) {
+  const std::uint32_t cell = walker.cell();
+  Segment segment{walker.t_in(), walker.t_out(), s_in, s_out, cell};
+  if (!mesh.cell_values.empty()) segment.s_in = segment.s_out = mesh.cell_values[cell];
+  take_scalar(walker, ray, order, segment);
+  return segment;
+}
+
 /// Follows a ray and calls `visit(const Segment&)` for each visible cell, front to back, until that
 /// returns false or the grid ends; what happens on vertices, edges and planes, see
 /// rectilinear_walker.h.
@@ -54,23 +70,18 @@ TraceResult trace(const WalkableRectilinear& mesh, const BoundaryIndex<Rectiline
   if (!walker.start(ray)) return result;
   const bool on_points = mesh.cell_values.empty();
   const bool any_hidden = !mesh.hidden.empty();
-  const ScalarOrder order = !on_points                               ? ScalarOrder::linear
-                            : request.order == ScalarOrder::adaptive ? ScalarOrder::cubic
-                                                                     : request.order;
+  const ScalarOrder order = order_in(mesh, request.order);
   float s_in = on_points ? walker.entry_scalar() : 0;
   for (bool inside = false;; walker.advance()) {
-    const std::uint32_t cell = walker.cell();
     const float s_out = on_points ? walker.exit_scalar() : 0;
-    if (any_hidden && mesh.hidden[cell]) {
+    if (any_hidden && mesh.hidden[walker.cell()]) {
       inside = false;
     } else {
       if (!inside) ++result.entries;
       inside = true;
       ++result.cells;
-      Segment segment{walker.t_in(), walker.t_out(), s_in, s_out, cell};
-      if (!on_points) segment.s_in = segment.s_out = mesh.cell_values[cell];
-      take_scalar(walker, ray, order, segment);
-      if (!visit(static_cast<const Segment&>(segment))) {
+      const Segment segment = segment_in(mesh, walker, ray, order, s_in, s_out);
+      if (!visit(segment)) {
         result.end = WalkEnd::stopped;
         return result;
       }

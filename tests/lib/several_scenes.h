@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <utility>
@@ -77,5 +78,20 @@ struct Scenes {
     return {list.rbegin(), list.rend()};
   }
 };
+
+/// A field that is linear nowhere.
+inline double wavy(const Point& p) {
+  return 3 + 2 * std::sin(5 * p[0] + 3 * p[1]) * std::cos(4 * p[2]);
+}
+
+/// Of four knots.
+inline Classification volume_alone() {
+  Classification volume;
+  volume.volume = TransferFunction{{{0, {0.2f, {0, 0.1f, 1}}},
+                                    {2, {1, {0.5f, 1, 0}}},
+                                    {3, {4, {1, 0, 0}}},
+                                    {5, {0, {1, 1, 1}}}}};
+  return volume;
+}
 
 }  // namespace plume::test
