@@ -116,6 +116,14 @@ class Planner {
     settings().integrator = {};
     if (!composites_) return;
     const double color = greatest_color(scene_);
+    if (color * kScalarError > asked_.max_error / 4) {
+      settings().integrator = reference_settings(settings(), asked_.max_error).integrator;
+      settings().scalar_twin = true;
+      plan_.reasons.push_back(
+          fmt::format("integrator: the reference's, as the closed form's rounding may reach {:.1g}",
+                      color * kScalarError));
+      return;
+    }
     const double by_packets =
         color * (is_classified(scene_, settings()) ? kClassifiedPacketError : kPacketError);
     settings().scalar_twin = settings().scalar_twin || by_packets > asked_.max_error / 4;

@@ -6,7 +6,8 @@
 ///   alpha and T times the greatest colour in a colour. It is given a tenth of the tolerance, half
 ///   where nothing else is to be chosen.
 /// - **Integrator**: a bound. The closed form is exact up to rounding: kPacketError by packets,
-///   kScalarError ray by ray, which is taken where packets' is too much.
+///   kScalarError ray by ray, which is taken where packets' is too much. Where that is, too, the
+///   integrator is the reference's.
 /// - **Order of the scalar** in cells that are not tetrahedra: measured. A bound over what a cell's
 ///   corners allow is some hundred times what happens, for it cannot know that errors along a ray
 ///   cancel, and is infinite where a cell is degenerate. So candidates are compared with the

@@ -35,13 +35,13 @@ SceneOptions keep_field() {
 }
 
 struct Shown {
-  Mesh mesh = generate("twisted", {8, 0.3, 3});
+  Mesh mesh = generate("twisted", {5, 0.3, 3});
   Scene scene{mesh, keep_field()};
   Camera camera = named_view("iso", scene.bounds());
   RenderSettings settings = [] {
     RenderSettings made;
-    made.width = 120;
-    made.height = 90;
+    made.width = 80;
+    made.height = 60;
     made.tolerance = Tolerance{1e-2};
     return made;
   }();
@@ -89,8 +89,8 @@ TEST(KeptPlans, AreLookedAtAgainWhereTheViewOrTheValuesChange) {
   EXPECT_EQ(way_of(shown.picture()), Way::anew);
   const std::function<void()> changes[] = {
       [&] { orbit(shown.camera, 5, 0); },
-      [&] { shown.settings.width = 130; },
-      [&] { shown.settings.depth_limit.assign(130 * 90, 1e9f); },
+      [&] { shown.settings.width = 90; },
+      [&] { shown.settings.depth_limit.assign(90 * 60, 1e9f); },
       [&] { shown.scene.set_field(shown.mesh); },
       [&] {
         shown.scene.add_surface(
@@ -142,7 +142,9 @@ TEST(KeptPlans, OfSeveralViewsInTurnsStay) {
     for (const char* view : views) {
       shown.camera = named_view(view, shown.scene.bounds());
       const Way way = way_of(shown.picture());
-      if (round > 0) EXPECT_EQ(way, Way::kept) << view;
+      if (round > 0) {
+        EXPECT_EQ(way, Way::kept) << view;
+      }
     }
 }
 

@@ -63,6 +63,9 @@ TEST(Planner, TakesTheCheapestOrderThatWillDo) {
     EXPECT_TRUE(plan.keeps);
     EXPECT_LE(plan.error, asked);
     before = plan.settings.order;
+    if (asked == 1e-6) {
+      EXPECT_EQ(plan.settings.integrator.kind, IntegratorKind::reference);
+    }
     if (asked == 0.5) {
       EXPECT_EQ(plan.settings.order, ScalarOrder::linear) << text_of(plan.reasons);
       EXPECT_FALSE(plan.settings.scalar_twin);
@@ -136,8 +139,8 @@ TEST(Planner, SaysTheErrorOfWhatIsForced) {
     const Scene& scene = *forced.scene;
     const Camera camera = named_view("iso", scene.bounds());
     RenderSettings settings = settings_of(forced.mode);
-    settings.width = 128;  // more than a pilot looks at
-    settings.height = 96;
+    settings.width = 96;  // more than a pilot looks at
+    settings.height = 72;
     settings.order = forced.order;
     settings.integrator = forced.integrator;
     settings.early_termination = 0.05;
@@ -187,23 +190,20 @@ TransferFunction narrow_spikes(const Scene& scene, unsigned seed) {
 
 TEST(Planner, IsNotFooledByNarrowSpikes) {
   Scene scene(generate("twisted", {12, 0.3, 3}));
-  for (const unsigned seed : {1u, 2u, 3u}) {
+  for (const unsigned seed : {1u, 2u}) {
     scene.set_transfer_function(narrow_spikes(scene, seed));
-    for (const char* view : {"iso", "+z"}) {
-      const Camera camera = named_view(view, scene.bounds());
-      for (const Mode mode : {Mode::volume, Mode::optical_depth}) {
-        RenderSettings settings = settings_of(mode);
-        settings.width = settings.height = 160;
-        const RenderResult right = render(scene, camera, reference_settings(settings, 1e-2));
-        for (const double asked : {0.3, 0.03}) {
-          settings.tolerance = Tolerance{asked};
-          const RenderResult result = render(scene, camera, settings);
-          EXPECT_LE(
-              greatest_difference(result.image, right.image, mode, shade_width(right.statistics)),
-              asked)
-              << view << ", " << seed << "\n"
-              << text_of(result.statistics.plan);
-        }
+    const Camera camera = named_view("iso", scene.bounds());
+    for (const Mode mode : {Mode::volume, Mode::optical_depth}) {
+      RenderSettings settings = settings_of(mode);
+      settings.width = settings.height = 128;
+      const RenderResult right = render(scene, camera, reference_settings(settings, 1e-2));
+      const double width = shade_width(right.statistics);
+      for (const double asked : {0.3, 0.03}) {
+        settings.tolerance = Tolerance{asked};
+        const RenderResult result = render(scene, camera, settings);
+        EXPECT_LE(greatest_difference(result.image, right.image, mode, width), asked)
+            << seed << "\n"
+            << text_of(result.statistics.plan);
       }
     }
   }
