@@ -10,6 +10,7 @@
 
 #include "plume/lib/pilot.h"
 #include "plume/lib/render_plan.h"
+#include "plume/lib/spikes.h"
 
 namespace plume {
 namespace {
@@ -31,6 +32,9 @@ constexpr std::array<Candidate, 9> kCandidates{{{ScalarOrder::linear, 1e-4},
                                                 {ScalarOrder::adaptive, 1e-4},
                                                 {ScalarOrder::adaptive, 1e-5},
                                                 {ScalarOrder::adaptive, 1e-6}}};
+
+// Samples may miss what spikes do that are narrower than this share of the field's range.
+constexpr double kNarrow = 0.02;
 
 // Whether a pixel shows what one place on its ray is like: its error may be that of one cell, the
 // worst of which a sample of pixels does not find.
@@ -58,13 +62,6 @@ const char* name_of(ScalarOrder order) {
 }
 
 bool has_optics(Mode mode) { return mode == Mode::volume || mode == Mode::optical_depth; }
-
-std::string in_words(const PilotError& error) {
-  return error.all ? fmt::format("all {} pixels compared with the reference", error.pixels)
-                   : fmt::format(
-                         "by {} pixels compared with the reference, the worst of which has {:.1g}",
-                         error.pixels, error.found);
-}
 
 // Makes one plan.
 class Planner {
@@ -99,6 +96,26 @@ class Planner {
 
  private:
   RenderSettings& settings() { return plan_.settings; }
+
+  // What the pilot finds; twice its estimate where that may have missed something.
+  PilotError look(Pilot& pilot, double enough = kInfinite) const {
+    PilotError error = pilot.error_of(compared(), enough);
+    if (has_narrow_spikes() && !error.all && error.found <= enough) error.estimate *= 2;
+    return error;
+  }
+
+  bool has_narrow_spikes() const {
+    const double range = static_cast<double>(scene_.field().high) - scene_.field().low;
+    return has_optics(plan_.settings.mode) && scene_.classification().volume &&
+           narrowest_spike(*scene_.classification().volume) < kNarrow * range;
+  }
+
+  std::string in_words(const PilotError& error) const {
+    if (error.all) return fmt::format("all {} pixels compared with the reference", error.pixels);
+    return fmt::format("by {} pixels compared with the reference, the worst of which has {:.1g}{}",
+                       error.pixels, error.found,
+                       has_narrow_spikes() ? ", doubled as extinction has narrow spikes" : "");
+  }
 
   void take_reference() {
     const RenderSettings reference = reference_settings(settings());
@@ -200,7 +217,7 @@ class Planner {
     double cheaper = kInfinite;
     for (const std::size_t candidate : candidates(reference.scalar_tolerance)) {
       take(candidate);
-      const PilotError error = pilot.error_of(compared(), left_);
+      const PilotError error = look(pilot, left_);
       const char* name = name_of(settings().order);
       if (error.estimate <= left_) {
         plan_.order = ChosenOrder{candidate, error.estimate, error.found, cheaper};
@@ -228,7 +245,7 @@ class Planner {
   bool still_does(const RenderSettings& reference) {
     take(before_->candidate);
     Pilot pilot(scene_, camera_, reference, Pilot::Look::brief);
-    const PilotError error = pilot.error_of(compared(), left_);
+    const PilotError error = look(pilot, left_);
     const double estimate = std::max(before_->estimate, error.estimate);
     if (estimate > left_) return false;
     // Errors of orders rise and fall together, more or less: enough to tell what is worth a try.
@@ -255,9 +272,8 @@ class Planner {
 
   void measure_forced() {
     if (asked_.max_error == 0) measures_early_termination_ = true;
-    const PilotError error =
-        Pilot(scene_, camera_, reference_settings(settings(), asked_.max_error))
-            .error_of(compared());
+    Pilot pilot(scene_, camera_, reference_settings(settings(), asked_.max_error));
+    const PilotError error = look(pilot);
     left_ -= error.estimate;
     std::vector<std::string> forced;
     if (!asked_.choose_order && has_orders_) forced.emplace_back("the order");
