@@ -152,7 +152,7 @@ PilotError Pilot::error_of(const RenderSettings& settings, double enough) {
   worst.resize(std::max(worst.size(), kRank), 0.0);
   std::sort(worst.begin(), worst.end(), std::greater<>());
   error.found = std::max(error.found, worst[0]);
-  error.estimate = error.found + kSpread * (error.found - worst[kRank - 1]);
+  error.estimate = error.found + std::max(error.found, kSpread * (error.found - worst[kRank - 1]));
   return error;
 }
 

@@ -28,9 +28,9 @@ struct PilotError {
 /// **The estimate** of the greatest error e_1 that no pixel exceeds is what the windows' worst
 /// pixels e_1 >= e_2 >= ... say of how the tail ends: e_1 + 3 (e_1 - e_12), after Robson and
 /// Whitlock's bound of a truncation point by the largest observations (Biometrika 51, 1964). Where
-/// many places are nearly as bad as the worst, there will be none much worse; where the worst
-/// stands alone, worse ones may have been missed. docs/evidence.md says how often it is exceeded;
-/// twice what is found is exceeded twice as often.
+/// the worst stands alone, worse ones may have been missed. Where many are alike, they may all be
+/// of one ridge, and say nothing of others: it is twice e_1 at least. docs/evidence.md says how
+/// often it is exceeded.
 class Pilot {
  public:
   /// How much of the picture is looked at.

@@ -128,7 +128,8 @@ TEST(SecondOrderTable, is_better_at_twice_the_step_on_quadratic_scalars) {
     if (low == 0 && high == 1) rays.push_back(ray);
   }
   // Steps of 4 and 2 voxels by first order, slabs of twice two such steps by second. Of steps of
-  // one voxel first order is nearer than what this table resolves: that takes the paper's of 256^3.
+  // one voxel first order is nearer than what this table resolves: that takes one of 96^3
+  // (docs/integrators.md).
   for (const int samples : {8, 16}) {
     const double step = length / samples;
     const PreintegratedTable first(function,
