@@ -249,7 +249,7 @@ class Planner {
     const double estimate = std::max(before_->estimate, error.estimate);
     if (estimate > left_) return false;
     // Errors of orders rise and fall together, more or less: enough to tell what is worth a try.
-    if (before_->cheaper * error.found < before_->found * left_) return false;
+    if (2 * before_->cheaper * error.found < before_->found * left_) return false;
     plan_.order = ChosenOrder{before_->candidate, estimate, before_->found, before_->cheaper};
     left_ -= estimate;
     plan_.reasons.push_back(fmt::format(

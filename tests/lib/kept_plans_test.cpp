@@ -40,9 +40,9 @@ struct Shown {
   Camera camera = named_view("iso", scene.bounds());
   RenderSettings settings = [] {
     RenderSettings made;
-    made.width = 48;
-    made.height = 36;
-    made.tolerance = Tolerance{1e-2};
+    made.width = 80;
+    made.height = 60;
+    made.tolerance = Tolerance{3e-2};
     return made;
   }();
 
@@ -89,8 +89,8 @@ TEST(KeptPlans, AreLookedAtAgainWhereTheViewOrTheValuesChange) {
   EXPECT_EQ(way_of(shown.picture()), Way::anew);
   const std::function<void()> changes[] = {
       [&] { orbit(shown.camera, 5, 0); },
-      [&] { shown.settings.width = 60; },
-      [&] { shown.settings.depth_limit.assign(60 * 36, 1e9f); },
+      [&] { shown.settings.width = 90; },
+      [&] { shown.settings.depth_limit.assign(90 * 60, 1e9f); },
       [&] { shown.scene.set_field(shown.mesh); },
       [&] {
         shown.scene.add_surface(
@@ -103,7 +103,7 @@ TEST(KeptPlans, AreLookedAtAgainWhereTheViewOrTheValuesChange) {
     const RenderResult result = shown.picture();
     EXPECT_EQ(way_of(result), Way::checked);
     EXPECT_GE(*result.statistics.error_estimate, estimate);  // over all that were looked at
-    EXPECT_LE(*result.statistics.error_estimate, 1e-2);
+    EXPECT_LE(*result.statistics.error_estimate, 3e-2);
     estimate = *result.statistics.error_estimate;
     EXPECT_EQ(way_of(shown.picture()), Way::kept);
   }
@@ -123,7 +123,7 @@ TEST(KeptPlans, AreMadeAnewForAnotherLookOrTolerance) {
         other.isosurfaces.push_back({shown.scene.transfer_function().knots[50].scalar, 0.5f, {}});
         shown.scene.set_classification(other);
       },
-      [&] { shown.settings.tolerance->max_error = 1.1e-2; },
+      [&] { shown.settings.tolerance->max_error = 3.1e-2; },
       [&] { shown.settings.mode = Mode::integral; },
       [&] {
         const Bounds& bounds = shown.scene.bounds();
@@ -171,7 +171,7 @@ TEST(KeptPlans, AreGivenUpWhereTheyDoNotDo) {
   EXPECT_EQ(way_of(result), Way::anew);
   EXPECT_GE(result.statistics.order, order);
   const RenderResult right = render(shown.scene, shown.camera, reference_settings(shown.settings));
-  EXPECT_LE(greatest_difference(result.image, right.image, Mode::volume, 0), 1e-2);
+  EXPECT_LE(greatest_difference(result.image, right.image, Mode::volume, 0), 3e-2);
 }
 
 }  // namespace
