@@ -206,11 +206,11 @@ class GridSteps {
     VF before[4];  // the front's edges: do they cross y = 0?
     for (std::size_t m = 0; m < 4; ++m) before[m] = hn::Xor(p.y[m], p.y[(m + 1) % 4]);
     strange = hn::Or(strange, WindsTwice(along[0], along[1], along[2], right_along[0],
-                                         right_along[1], right_along[2]));
+                                         right_along[1], right_along[2], right_along[3]));
     for (std::size_t m = 0; m < 4; ++m) {
       const std::size_t n = (m + 1) % 4;
       strange = hn::Or(strange, WindsTwice(before[m], across[n], along[m], right[m],
-                                           right_across[n], right_along[m]));
+                                           right_across[n], right_along[m], right_across[m]));
     }
     if (twisted_) {
       // Faces with all corners on one side of y = 0 (or in one place) are not crossed.

@@ -83,12 +83,14 @@ HWY_INLINE MF MeasurePatch(const QuadLanes<true>& p, VF winding, VF& z, VF& s) {
   return hn::Not(inside);
 }
 
-// Whether a face of even winding winds twice: its corners are above and below y = 0 in turn, and
-// its edges cross on the right and on the left in turn. Of three edges one after the other: whether
-// they cross, and on the right.
-HWY_INLINE VF WindsTwice(VF crosses0, VF crosses1, VF crosses2, VF right0, VF right1, VF right2) {
-  return hn::And(hn::And(crosses0, hn::And(crosses1, crosses2)),
-                 hn::And(hn::Xor(right0, right1), hn::Xor(right1, right2)));
+// Whether a face winds twice: its corners are above and below y = 0 in turn, and its edges cross on
+// the right and on the left in turn. Of edges one after the other: whether they cross (the fourth
+// does where the others do), and on the right.
+HWY_INLINE VF WindsTwice(VF crosses0, VF crosses1, VF crosses2, VF right0, VF right1, VF right2,
+                         VF right3) {
+  return hn::And(
+      hn::And(crosses0, hn::And(crosses1, crosses2)),
+      hn::And(hn::Xor(right0, right1), hn::And(hn::Xor(right1, right2), hn::Xor(right2, right3))));
 }
 
 // Whether faces of winding 0 may be crossed, in and out again: is_grazed() of quad_crossings.h with
