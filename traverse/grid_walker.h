@@ -81,8 +81,8 @@ class BasicGridWalker {
       count += std::abs(winding.of(f));
       exit_face = outwards(f) * winding.of(f) > 0 ? f : exit_face;
     }
-    if (count != 2 || any_grazed(winding, quad))
-      return leave_one_of_several(winding, quad, excursion);
+    const std::uint32_t grazed = first_grazed(winding, quad);
+    if (count != 2 || grazed < 6) return leave_one_of_several(winding, quad, grazed, excursion);
     const bool planar = is_planar(first_, exit_face);
     const Quad through = quad(exit_face);
     const QuadCrossings only = Faces::crossings(through, winding.of(exit_face), planar);
@@ -121,26 +121,26 @@ class BasicGridWalker {
     return {corners[0], corners[1], corners[2], corners[3]};
   }
 
-  // Whether a face of winding 0 is crossed all the same.
+  // The first face that is crossed although its winding is 0, or 6.
   template <class QuadOf>
-  bool any_grazed(const HexahedronWindings& winding, const QuadOf& quad) const {
+  std::uint32_t first_grazed(const HexahedronWindings& winding, const QuadOf& quad) const {
     if (!Faces::kGrazed || (Faces::kAsksIfPlanar && mesh_.planar_faces == PlanarFaces::all))
-      return false;
-    for (std::uint32_t f = 0; f < 6; ++f)
-      if (winding.of(f) == 0 && winding.may_be_crossed(f) &&
-          Faces::crossings(quad(f), 0, is_planar(first_, f)).grazed())
-        return true;
-    return false;
+      return 6;
+    std::uint32_t f = 0;
+    while (f < 6 && !(winding.of(f) == 0 && winding.may_be_crossed(f) &&
+                      Faces::crossings(quad(f), 0, is_planar(first_, f)).grazed()))
+      ++f;
+    return f;
   }
 
   template <class QuadOf>
   std::optional<Crossing> leave_one_of_several(const HexahedronWindings& winding,
-                                               const QuadOf& quad,
+                                               const QuadOf& quad, std::uint32_t grazed,
                                                std::optional<Excursion>* excursion) {
     std::array<CellCrossing, 12> crossings;
     std::size_t size = 0;
     for (std::uint32_t f = 0; f < 6; ++f) {
-      if (!winding.may_be_crossed(f)) continue;
+      if (!winding.may_be_crossed(f) || (winding.of(f) == 0 && f < grazed)) continue;
       const bool planar = is_planar(first_, f);
       const QuadCrossings of_face = Faces::crossings(quad(f), winding.of(f), planar);
       for (std::uint32_t rank = 0; rank < 2; ++rank)
