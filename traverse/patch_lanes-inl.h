@@ -110,16 +110,16 @@ class GrazeTest {
     const VF tiny = hn::Set(d, 1e-37f);  // above what underflows
     const VF four = hn::Set(d, 4);
     const VF v1 = hn::Sub(ac, bd), u1 = hn::Add(ac, bd);
-    auto room = [&](VF of) { return hn::MulAdd(hn::Abs(of), error_, tiny); };
-    const VF outer = hn::Mul(v0, v2);
+    // The signs of edges' products are right where they are not 0, and those of their bits then.
+    const VF ends = hn::Or(hn::MulAdd(v0, v2, tiny), hn::MulAdd(u0, u2, tiny));
+    auto opposite = [&](VF edge, VF middle) {
+      return hn::NegMulAdd(edge, middle, hn::MulAdd(hn::Abs(edge), error_, tiny));
+    };
+    const VF middles = hn::Or(opposite(v0, v1), opposite(u0, u1));
     const VF sizes = hn::MulAdd(four, hn::Add(hn::Abs(v0), hn::Abs(v2)),
                                 hn::MulAdd(hn::Set(d, 2), hn::Abs(v1), error_));
-    const VF discriminant = hn::NegMulAdd(four, outer, hn::MulAdd(v1, v1, room(sizes)));
-    // An edge's bit may have another sign than its product.
-    auto both = [&](VF p, VF q) { return room(hn::Add(hn::Abs(p), hn::Abs(q))); };
-    const VF ends = hn::Or(hn::Add(outer, both(v0, v2)), hn::MulAdd(u0, u2, both(u0, u2)));
-    const VF middles =
-        hn::Or(hn::NegMulAdd(v0, v1, both(v0, v1)), hn::NegMulAdd(u0, u1, both(u0, u1)));
+    const VF discriminant = hn::NegMulAdd(hn::Mul(four, v0), v2,
+                                          hn::MulAdd(v1, v1, hn::MulAdd(sizes, error_, tiny)));
     return hn::Or(hn::Or(ends, discriminant), middles);
   }
 
