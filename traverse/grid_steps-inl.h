@@ -258,7 +258,7 @@ class GridSteps {
                           hn::Xor(packet.u, opposite)};
       for (std::size_t m = 0; m < 4; ++m) side[m] = Choose(strange, leaves_by(face[m]), side[m]);
       const VF turned = hn::And(strange, leaves_by(hn::Xor(packet.ahead, opposite)));
-      if (!hn::AllFalse(d, MaskOfBits(turned))) TurnAround(packet, turned, q, right_along);
+      TurnAround(packet, turned, q, right_along);
       result.left =
           hn::And(MaskOfBits(strange), hn::RebindMask(d, hn::Eq(exit, hn::Set(du, kNowhere))));
     }
@@ -437,7 +437,7 @@ class GridSteps {
   // winding; `alone`: those that cross no other face either. Returned are the lanes of which it is
   // known where they leave.
   template <bool kMeasure>
-  HWY_NOINLINE MF Decide(State& state, const Packet<kMeasure>& packet, VF strange, VF grazed,
+  HWY_INLINE MF Decide(State& state, const Packet<kMeasure>& packet, VF strange, VF grazed,
                          VF alone) const {
     const DF d;
     const DU du;
