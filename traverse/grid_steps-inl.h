@@ -172,7 +172,8 @@ class GridSteps {
     return CellAt(packet.index);
   }
 
-  HWY_INLINE void Prefetch(const State& state) const {
+  template <class AnyPacket>
+  HWY_INLINE void Prefetch(const State& state, const AnyPacket&) const {
     for (const auto& corner : state.back_by_2) HWY_NAMESPACE::Prefetch(points_, corner);
   }
 
@@ -217,17 +218,16 @@ class GridSteps {
     for (std::size_t m = 0; m < 4; ++m)
       side[m] = Xor3(right[m], right_across[m], hn::Xor(right_across[(m + 1) % 4], right_along[m]));
 
-    // Lanes that this step does not hold for: the front winds an even number of times, or several
-    // sides wind, or a face has, or may have, two crossings.
+    // Lanes in which it is not clear by which face the ray leaves: the front winds an even number
+    // of times, or several sides wind, or a face has, or may have, two crossings (`doubtful`).
     VF several = hn::And(side[0], side[1]);
     several = hn::Or(several, hn::And(hn::Or(side[0], side[1]), side[2]));
     several = hn::Or(several, hn::And(hn::Or(hn::Or(side[0], side[1]), side[2]), side[3]));
     const VF odd = Xor3(right[0], right[1], hn::Xor(right[2], right[3]));
-    VF doubtful = hn::Zero(d);
     VF before[4];  // the front's edges: do they cross y = 0?
     for (std::size_t m = 0; m < 4; ++m) before[m] = hn::Xor(p.y[m], p.y[(m + 1) % 4]);
-    doubtful = hn::Or(doubtful, WindsTwice(along[0], along[1], along[2], right_along[0],
-                                           right_along[1], right_along[2], right_along[3]));
+    VF doubtful = WindsTwice(along[0], along[1], along[2], right_along[0], right_along[1],
+                             right_along[2], right_along[3]);
     for (std::size_t m = 0; m < 4; ++m) {
       const std::size_t n = (m + 1) % 4;
       doubtful = hn::Or(doubtful, WindsTwice(before[m], across[n], along[m], right[m],
@@ -246,21 +246,20 @@ class GridSteps {
     StepResult result;
     result.left = hn::MaskFromVec(hn::Zero(d));
     MF measured = result.left;
+    const VU opposite = hn::Set(du, 1);
     if (HWY_UNLIKELY((BitsOf(MaskOfBits(strange)) & state.live) != 0)) {
-      const VF others = hn::Or(Or3(side[0], side[1], side[2]), hn::Or(side[3], doubtful));
+      const VF others = Or3(hn::Or(side[0], side[1]), hn::Or(side[2], side[3]), doubtful);
       measured = Decide(state, packet, strange, hn::Not(odd), hn::Not(hn::Or(odd, others)));
       const VU exit = hn::Load(du, state.exit);
       auto leaves_by = [&](VU face) {
         return hn::VecFromMask(d, hn::RebindMask(d, hn::Eq(exit, face)));
       };
-      const VU opposite = hn::Set(du, 1);
       const VU face[4] = {hn::Xor(packet.v, opposite), packet.u, packet.v,
                           hn::Xor(packet.u, opposite)};
       for (std::size_t m = 0; m < 4; ++m) side[m] = Choose(strange, leaves_by(face[m]), side[m]);
-      const VF turned = hn::And(strange, leaves_by(hn::Xor(packet.ahead, opposite)));
-      TurnAround(packet, turned, q, right_along);
-      result.left =
-          hn::And(MaskOfBits(strange), hn::RebindMask(d, hn::Eq(exit, hn::Set(du, kNowhere))));
+      result.left = MaskOfBits(hn::And(strange, leaves_by(hn::Set(du, kNowhere))));
+      TurnAround(packet, hn::And(strange, leaves_by(hn::Xor(packet.ahead, opposite))), q,
+                 right_along);
     }
 
     // The front of the next cell: the back, or side m, whose corners m and m + 1 stay.
@@ -291,7 +290,6 @@ class GridSteps {
     }
     for (std::size_t m = 0; m < 4; ++m) packet.right[m] = next_right[m];
 
-    const VU opposite = hn::Set(du, 1);
     const VU u_by_2 = LookUp(stride_by_2_, packet.u);
     const VU v_by_2 = LookUp(stride_by_2_, packet.v);
     const VU ahead_by_2 = LookUp(stride_by_2_, packet.ahead);
@@ -438,7 +436,7 @@ class GridSteps {
   // known where they leave.
   template <bool kMeasure>
   HWY_INLINE MF Decide(State& state, const Packet<kMeasure>& packet, VF strange, VF grazed,
-                         VF alone) const {
+                       VF alone) const {
     const DF d;
     const DU du;
     const VU cell = CellAt(packet.index), from = hn::Xor(packet.ahead, hn::Set(du, 1));

@@ -42,8 +42,8 @@ HWY_INLINE MF MeasurePatch(const QuadLanes<true>& p, VF winding, VF& z, VF& s) {
   auto cross = [&](std::size_t a, std::size_t b) {
     return DifferenceOfProducts(p.x[a], p.y[b], p.x[b], p.y[a]);
   };
-  // Only ratios of these count. Coordinates are below 4, so squares do not overflow, and those of
-  // cells that are wider than 2^-40 of the mesh do not underflow.
+  // Only ratios of these count. Where the face is about the ray coordinates are below 4, so squares
+  // do not overflow; those of cells that are wider than 2^-50 of the mesh do not underflow.
   const VF scale = hn::CopySignToAbs(hn::Set(d, 0x1p56f), winding);
   const VF front = hn::Mul(cross(0, 1), scale);
   const VF back = hn::Mul(cross(2, 3), scale);  // minus the coefficient: >= 0 in a convex face
@@ -118,8 +118,8 @@ class GrazeTest {
     const VF middles = hn::Or(opposite(v0, v1), opposite(u0, u1));
     const VF sizes = hn::MulAdd(four, hn::Add(hn::Abs(v0), hn::Abs(v2)),
                                 hn::MulAdd(hn::Set(d, 2), hn::Abs(v1), error_));
-    const VF discriminant = hn::NegMulAdd(hn::Mul(four, v0), v2,
-                                          hn::MulAdd(v1, v1, hn::MulAdd(sizes, error_, tiny)));
+    const VF discriminant =
+        hn::NegMulAdd(hn::Mul(four, v0), v2, hn::MulAdd(v1, v1, hn::MulAdd(sizes, error_, tiny)));
     return hn::Or(hn::Or(ends, discriminant), middles);
   }
 
