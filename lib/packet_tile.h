@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "plume/lib/volume_packets.h"
@@ -19,6 +21,11 @@ struct PacketResult {
   /// The ray is left to trace().
   bool declined = false;
 };
+
+/// Walks the rays of a feeder, whose longest axis that is, and puts what became of each, by
+/// PacketStart::ray, into the colours: cells, z and opaque, and what it makes of the others.
+using PacketWalkOfRays =
+    std::function<void(std::span<PacketColor> colors, int axis, PacketFeeder& feeder)>;
 
 /// Rays of a tile: added one by one, then composited together. Reused from tile to tile.
 ///
@@ -40,6 +47,8 @@ class PacketTile {
   void add(const Ray& ray);
   /// What the optics keep of each ray is the tile's.
   void composite(PacketOptics optics);
+  /// The same with whatever is to be done with their segments.
+  void walk_by(const PacketWalkOfRays& walk);
 
   const Ray& ray(std::size_t index) const { return rays_[index].ray; }
   /// Of a place in the mesh's local frame, along the ray, in world units.

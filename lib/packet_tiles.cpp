@@ -6,17 +6,14 @@
 #include <variant>
 
 #include "plume/lib/classified_tiles.h"
-#include "plume/lib/packet_tile.h"
-#include "plume/lib/rectilinear_tile.h"
+#include "plume/lib/curved_packets.h"
+#include "plume/lib/packet_pixels.h"
 #include "plume/lib/render_plan.h"
 #include "plume/lib/volume_tiles.h"
 #include "plume/traverse/packets.h"
 
 namespace plume {
 namespace {
-
-template <class Walkable>
-using PacketTileOf = PacketTile<typename Walkable::Walker>;
 
 // Of one thread's tile.
 template <class Walkable>
@@ -34,6 +31,11 @@ class TileLight : public PacketLight {
   const PacketTileOf<Walkable>& tile_;
 };
 
+// Whether there are packets above order 1. (Tetrahedra are linear.)
+template <class Walkable>
+constexpr bool kCurved = std::is_same_v<typename Walkable::Walker, GridWalker> ||
+                         std::is_same_v<typename Walkable::Walker, CellWalker>;
+
 // `Twin` makes the pixels of rays that packets decline.
 template <class Walkable, class Twin>
 class PacketTiles : public TileMaker {
@@ -41,6 +43,7 @@ class PacketTiles : public TileMaker {
   PacketTiles(Frame& frame, const Walkable& walkable, const ClosedForm& integrator,
               const PacketPieces& pieces)
       : frame_(frame),
+        walkable_(walkable),
         pieces_(pieces),
         twin_(frame, walkable, integrator),
         light_(frame, walkable),
@@ -50,31 +53,15 @@ class PacketTiles : public TileMaker {
 
   void make(const Tile& tile, Counts& counts) override {
     auto& packets = packets_.local();
-    packets.clear();
-    // Packets walk whole passages: rays that end inside are walked one by one.
-    frame_.for_each_pixel(tile, [&](const PixelPlace& pixel) {
-      if (frame_.sees_endlessly(pixel))
-        packets.add(frame_.ray(pixel));
-      else
-        twin_.make_pixel(pixel, counts);
-    });
-    composite(packets, counts);
-    std::size_t ray = 0;
-    frame_.for_each_pixel(tile, [&](const PixelPlace& pixel) {
-      if (!frame_.sees_endlessly(pixel)) return;
-      const PacketResult result = packets.result(ray++);
-      if (result.declined) {
-        twin_.make_pixel(pixel, counts);
-        return;
-      }
-      counts.add(result.trace);
-      ++counts.in_packets;
-      float* rgba = frame_.rgba(pixel);
-      rgba[0] = result.color.r;
-      rgba[1] = result.color.g;
-      rgba[2] = result.color.b;
-      rgba[3] = 1 - result.color.transmittance;
-    });
+    make_by_packets(
+        frame_, tile, packets, twin_, counts, [&] { composite(packets, counts); },
+        [&](const PixelPlace& pixel, const PacketResult& result, std::size_t) {
+          float* rgba = frame_.rgba(pixel);
+          rgba[0] = result.color.r;
+          rgba[1] = result.color.g;
+          rgba[2] = result.color.b;
+          rgba[3] = 1 - result.color.transmittance;
+        });
   }
 
  private:
@@ -82,6 +69,7 @@ class PacketTiles : public TileMaker {
     PacketOptics optics;
     optics.early_termination = static_cast<float>(frame_.settings().early_termination);
     if (const auto* volume = std::get_if<PieceTable>(&pieces_)) {
+      if (!is_linear(frame_.scene(), frame_.settings())) return composite_curved(packets, *volume);
       optics.volume = volume;
       packets.composite(optics);
       return;
@@ -96,12 +84,33 @@ class PacketTiles : public TileMaker {
     counts.visits += classified.intervals_visited;
   }
 
+  void composite_curved(PacketTileOf<Walkable>& packets, const PieceTable& volume) const {
+    if constexpr (kCurved<Walkable>) {
+      const RenderSettings& settings = frame_.settings();
+      CurvedPackets curved{&volume,
+                           settings.order,
+                           static_cast<float>(frame_.tolerance()),
+                           static_cast<float>(settings.early_termination),
+                           {}};
+      packets.walk_by([&](std::span<PacketColor> colors, int axis, PacketFeeder& feeder) {
+        curved.colors = colors;
+        composite_curved_packets(walkable_.mesh, curved, axis, feeder);
+      });
+    }
+  }
+
   Frame& frame_;
+  const Walkable& walkable_;
   const PacketPieces& pieces_;
   Twin twin_;
   const SurfaceLight<Walkable> light_;
   tbb::enumerable_thread_specific<PacketTileOf<Walkable>> packets_;
 };
+
+bool has_curved_packets(const Scene& scene) {
+  return std::visit([](const auto& walkable) { return kCurved<std::decay_t<decltype(*walkable)>>; },
+                    scene.body().walkable);
+}
 
 }  // namespace
 
@@ -120,8 +129,11 @@ bool has_packets(const Scene& scene) {
 
 std::optional<PacketPieces> pieces_for_packets(const Frame& frame) {
   const RenderSettings& settings = frame.settings();
+  const bool curved =
+      (settings.order == ScalarOrder::quadratic || settings.order == ScalarOrder::cubic) &&
+      !is_classified(frame.scene(), settings) && has_curved_packets(frame.scene());
   const bool served =
-      is_linear(frame.scene(), settings) && has_packets(frame.scene()) &&
+      (is_linear(frame.scene(), settings) || curved) && has_packets(frame.scene()) &&
       settings.clip_planes.empty() && !settings.scalar_twin && settings.mode == Mode::volume &&
       settings.integrator.kind == IntegratorKind::closed_form && settings.channels.empty();
   if (!served) return std::nullopt;

@@ -24,6 +24,8 @@ class PacketTile<RectilinearWalker> {
   void clear() { rays_.clear(); }
   void add(const Ray& ray) { rays_.push_back({ray}); }
   void composite(PacketOptics optics);
+  /// All rays with axis 0, which means nothing here.
+  void walk_by(const PacketWalkOfRays& walk);
 
   const Ray& ray(std::size_t index) const { return rays_[index].ray; }
   /// Of a place on the ray, `z` from where it comes in.

@@ -29,7 +29,8 @@ std::unique_ptr<TileMaker> volume_tiles(Frame& frame, const Integrator& integrat
 using PacketPieces = std::variant<PieceTable, ClassifiedPieces>;
 
 /// The pieces with which packets can render this frame, or nothing where they cannot: they serve
-/// the mode volume, linear segments, the closed form, the exponential form of intervals, no clip
+/// the mode volume, linear segments (of curvilinear grids and mixed cells also quadratic and cubic
+/// ones, where the volume is alone), the closed form, the exponential form of intervals, no clip
 /// planes and no further channels.
 std::optional<PacketPieces> pieces_for_packets(const Frame& frame);
 
@@ -54,6 +55,13 @@ std::unique_ptr<TileMaker> table_tiles(Frame& frame);
 
 /// The modes that show one number a ray.
 std::unique_ptr<TileMaker> mode_tiles(Frame& frame);
+
+/// Whether packets can make those modes' pictures: of linear segments and a volume alone, without
+/// clip planes and further channels.
+bool has_mode_packets(const Frame& frame);
+
+/// The same pictures by packets of rays. Requires has_mode_packets(frame).
+std::unique_ptr<TileMaker> mode_packet_tiles(Frame& frame);
 
 /// Whether there are packets for what the scene is walked as.
 bool has_packets(const Scene& scene);
