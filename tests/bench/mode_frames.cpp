@@ -42,7 +42,7 @@ bool compare_on(const std::string& name, const Mesh& mesh, const ModeFrameOption
   const Camera camera = frame_cameras(scene.bounds())[3].camera;
   bool good = true;
   for (const ModeInWords& words : modes_in_words()) {
-    if (words.mode == Mode::volume) continue;
+    if (words.mode == plume::Mode::volume) continue;
     RenderSettings settings;
     settings.width = settings.height = options.size;
     settings.threads = 1;
