@@ -12,7 +12,8 @@ namespace HWY_NAMESPACE {
 
 void ReduceCell(const WalkableCells& mesh, const ModePackets& packets, int axis,
                 PacketFeeder& feeder) {
-  ReduceBy(packets, mesh.cell_values, [&](auto& consumer) { Walk(mesh, axis, consumer, feeder); });
+  ReduceBy<true>(packets, mesh.cell_values,
+                 [&](auto& consumer) { Walk(mesh, axis, consumer, feeder); });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -2,11 +2,19 @@
 #pragma once
 
 #include <span>
+#include <type_traits>
 
 #include "plume/lib/volume_packets.h"
+#include "plume/traverse/cell_walker.h"
+#include "plume/traverse/grid_walker.h"
 #include "plume/traverse/segment.h"
 
 namespace plume {
+
+/// Whether there are packets above order 1. (Tetrahedra are linear.)
+template <class Walkable>
+inline constexpr bool kCurvedPackets = std::is_same_v<typename Walkable::Walker, GridWalker> ||
+                                       std::is_same_v<typename Walkable::Walker, CellWalker>;
 
 /// A volume along which the scalar is a polynomial in each cell.
 struct CurvedPackets {

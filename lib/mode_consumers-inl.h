@@ -111,17 +111,30 @@ struct ExtremeConsumer {
   }
   // What a segment begins with, the one before ends with, or begin() has seen.
   HWY_INLINE MF visit(std::size_t packet, MF, VF, VF s_in, VF s_out, VU cells) {
-    const DF d;
     cell_scalars.replace(cells, s_in, s_out);
-    const VF before = hn::Load(d, best[packet]), value = hn::Mul(s_out, hn::Set(d, sign));
-    // Not the instruction for the greater of two, which takes what is no number.
-    hn::Store(hn::IfThenElse(hn::Gt(value, before), value, before), d, best[packet]);
+    see(packet, hn::Eq(s_out, s_out), s_out);
+    return NoLanes();
+  }
+  template <class Curved>
+  HWY_INLINE MF visit_curved(std::size_t packet, MF active, VF, VF, VF s_out,
+                             const Curved& scalar) {
+    see(packet, hn::Eq(s_out, s_out), s_out);
+    scalar.ForEachExtremum([&](MF lanes, VF value) { see(packet, hn::And(active, lanes), value); });
     return NoLanes();
   }
   void end(std::size_t packet, std::size_t lane, const PacketStart& start, float z,
            std::uint32_t cells) {
     packets.numbers[start.ray].value = sign * best[packet][lane];
     TakeDown(packets, start, z, cells);
+  }
+
+ private:
+  HWY_INLINE void see(std::size_t packet, MF lanes, VF scalar) {
+    const DF d;
+    const VF before = hn::Load(d, best[packet]), value = hn::Mul(scalar, hn::Set(d, sign));
+    // Not the instruction for the greater of two, which may take what is no number.
+    hn::Store(hn::IfThenElse(hn::And(lanes, hn::Gt(value, before)), value, before), d,
+              best[packet]);
   }
 };
 
@@ -144,10 +157,12 @@ struct ScalarSumConsumer {
   HWY_INLINE MF visit(std::size_t packet, MF, VF way, VF s_in, VF s_out, VU cells) {
     const DF d;
     cell_scalars.replace(cells, s_in, s_out);
-    const VF part = hn::Mul(hn::Mul(way, hn::Set(d, 0.5f)), hn::Add(s_in, s_out));
-    const MF known = hn::Eq(part, part);
-    integral.add(packet, hn::IfThenElseZero(known, part));
-    if constexpr (kLength) length.add(packet, hn::IfThenElseZero(known, way));
+    add(packet, hn::Mul(hn::Mul(way, hn::Set(d, 0.5f)), hn::Add(s_in, s_out)), way);
+    return NoLanes();
+  }
+  template <class Curved>
+  HWY_INLINE MF visit_curved(std::size_t packet, MF, VF way, VF, VF, const Curved& scalar) {
+    add(packet, hn::Mul(way, scalar.Mean()), way);
     return NoLanes();
   }
   void end(std::size_t packet, std::size_t lane, const PacketStart& start, float z,
@@ -156,6 +171,13 @@ struct ScalarSumConsumer {
     number.value += integral.sum(packet, lane);
     if constexpr (kLength) number.length += length.sum(packet, lane);
     TakeDown(packets, start, z, cells);
+  }
+
+ private:
+  HWY_INLINE void add(std::size_t packet, VF part, VF way) {
+    const MF known = hn::Eq(part, part);
+    integral.add(packet, hn::IfThenElseZero(known, part));
+    if constexpr (kLength) length.add(packet, hn::IfThenElseZero(known, way));
   }
 };
 
@@ -177,18 +199,31 @@ struct DepthSumConsumer {
     depth.clear(packet, lane);
   }
   HWY_INLINE MF visit(std::size_t packet, MF active, VF length, VF s_in, VF s_out, VU cells) {
-    const DU du;
     cell_scalars.replace(cells, s_in, s_out);
-    VU at = hn::Load(du, piece[packet]);
-    optics::AddDepths(pieces, active, s_in, s_out, length, at,
-                      [&](VF part) { depth.add(packet, part); });
-    hn::Store(at, du, piece[packet]);
+    add(packet, active, s_in, s_out, length);
+    return NoLanes();
+  }
+  template <class Curved>
+  HWY_INLINE MF visit_curved(std::size_t packet, MF active, VF length, VF, VF,
+                             const Curved& scalar) {
+    scalar.ForEachLinearPart(
+        active, length, packets.tolerance,
+        [&](MF on, VF from, VF to, VF part) { add(packet, on, from, to, part); });
     return NoLanes();
   }
   void end(std::size_t packet, std::size_t lane, const PacketStart& start, float z,
            std::uint32_t cells) {
     packets.numbers[start.ray].value += depth.sum(packet, lane);
     TakeDown(packets, start, z, cells);
+  }
+
+ private:
+  HWY_INLINE void add(std::size_t packet, MF active, VF s_in, VF s_out, VF length) {
+    const DU du;
+    VU at = hn::Load(du, piece[packet]);
+    optics::AddDepths(pieces, active, s_in, s_out, length, at,
+                      [&](VF part) { depth.add(packet, part); });
+    hn::Store(at, du, piece[packet]);
   }
 };
 
@@ -215,14 +250,22 @@ struct FirstConsumer {
   }
   HWY_INLINE void ends_at(std::size_t packet, VF z) { hn::Store(z, DF(), z_out[packet]); }
   HWY_INLINE MF visit(std::size_t packet, MF active, VF length, VF s_in, VF s_out, VU cells) {
-    const DF d;
     cell_scalars.replace(cells, s_in, s_out);
-    const VF from = hn::Load(d, low[packet]), to = hn::Load(d, high[packet]);
-    const MF clear = hn::And(hn::And(hn::Gt(s_in, from), hn::Lt(s_in, to)),
-                             hn::And(hn::Gt(s_out, from), hn::Lt(s_out, to)));
-    const unsigned unclear = BitsOf(hn::AndNot(clear, active));
+    const unsigned unclear =
+        BitsOf(hn::And(active, hn::Not(clear(packet, hn::Min(s_in, s_out), hn::Max(s_in, s_out)))));
     if (HWY_LIKELY(unclear == 0)) return NoLanes();
-    return look(packet, unclear, length, s_in, s_out);
+    return look(packet, unclear, length, s_in, s_out, NoLanes(), nullptr, 0);
+  }
+  // No place of a segment is farther from its chord than the polynomial bends.
+  template <class Curved>
+  HWY_INLINE MF visit_curved(std::size_t packet, MF active, VF length, VF s_in, VF s_out,
+                             const Curved& scalar) {
+    const VF least = hn::Sub(hn::Min(s_in, s_out), scalar.Bend());
+    const VF greatest = hn::Add(hn::Max(s_in, s_out), scalar.Bend());
+    const unsigned unclear = BitsOf(hn::And(active, hn::Not(clear(packet, least, greatest))));
+    if (HWY_LIKELY(unclear == 0)) return NoLanes();
+    return look(packet, unclear, length, s_in, s_out, scalar.Curves(), scalar.Inner(),
+                Curved::kCount);
   }
   void end(std::size_t packet, std::size_t lane, const PacketStart& start, float z,
            std::uint32_t cells) {
@@ -230,21 +273,33 @@ struct FirstConsumer {
   }
 
  private:
-  void set_clear(std::size_t packet, std::size_t lane, float scalar) {
-    const PacketFirst::Clear clear = packets.first->around(scalar);
-    low[packet][lane] = clear.low;
-    high[packet][lane] = clear.high;
+  // A segment with a scalar that is no number may be taken for clear: it is transparent.
+  HWY_INLINE MF clear(std::size_t packet, VF least, VF greatest) const {
+    const DF d;
+    const VF from = hn::Load(d, low[packet]), to = hn::Load(d, high[packet]);
+    return hn::And(hn::Gt(least, from), hn::Lt(greatest, to));
   }
-  HWY_NOINLINE MF look(std::size_t packet, unsigned lanes, VF length, VF s_in, VF s_out) {
+  void set_clear(std::size_t packet, std::size_t lane, float scalar) {
+    const PacketFirst::Clear range = packets.first->around(scalar);
+    low[packet][lane] = range.low;
+    high[packet][lane] = range.high;
+  }
+  HWY_NOINLINE MF look(std::size_t packet, unsigned lanes, VF length, VF s_in, VF s_out, MF curved,
+                       const VF* inner, std::size_t count) {
     const DF d;
     HWY_ALIGN float way[kMaxLanes], front[kMaxLanes], back[kMaxLanes], ends[kMaxLanes] = {};
+    HWY_ALIGN float inside[2][kMaxLanes] = {};
     hn::Store(length, d, way);
     hn::Store(s_in, d, front);
     hn::Store(s_out, d, back);
+    for (std::size_t i = 0; i < count; ++i) hn::Store(inner[i], d, inside[i]);
+    const unsigned bent = BitsOf(curved);
     for (; lanes != 0; lanes &= lanes - 1) {
       const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
-      if (packets.first->contributes(rays[packet][lane], z_out[packet][lane], way[lane],
-                                     front[lane], back[lane])) {
+      Segment segment{0, way[lane], front[lane], back[lane], 0};
+      if ((bent >> lane & 1u) != 0) segment.order = packets.order;
+      for (std::size_t i = 0; i < count; ++i) segment.inner[i] = inside[i][lane];
+      if (packets.first->contributes(rays[packet][lane], z_out[packet][lane], segment)) {
         found[packet][lane] = true;
         ends[lane] = 1;
       } else {
@@ -255,8 +310,8 @@ struct FirstConsumer {
   }
 };
 
-// Calls walk(consumer) with the mode's consumer.
-template <class Walk>
+// Calls walk(consumer) with the mode's consumer; without kCells none is for mode cell_count.
+template <bool kCells, class Walk>
 void ReduceBy(const ModePackets& packets, const std::vector<float>& cell_values, const Walk& walk) {
   auto by = [&](auto consumer) { walk(consumer); };
   switch (packets.mode) {
@@ -276,7 +331,8 @@ void ReduceBy(const ModePackets& packets, const std::vector<float>& cell_values,
     case Mode::depth:
       return by(FirstConsumer(packets, cell_values));
     case Mode::cell_count:
-      return by(CellsConsumer{packets});
+      if constexpr (kCells) by(CellsConsumer{packets});
+      break;
   }
 }
 

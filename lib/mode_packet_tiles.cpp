@@ -1,10 +1,13 @@
 #include <tbb/enumerable_thread_specific.h>
 
+#include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <type_traits>
 #include <vector>
 
+#include "plume/lib/curved_packets.h"
 #include "plume/lib/mode_packets.h"
 #include "plume/lib/mode_pixels.h"
 #include "plume/lib/packet_pixels.h"
@@ -75,11 +78,12 @@ class FirstOfTile : public PacketFirst {
     return clear;
   }
 
-  bool contributes(std::uint32_t ray, float z, float length, float s_in,
-                   float s_out) const override {
+  bool contributes(std::uint32_t ray, float z, const Segment& segment) const override {
     FirstPixel first{frame_.optical_depth(), frame_.tolerance()};
-    const double t_out = packets_.distance(ray, z);
-    if (first(Segment{t_out - length, t_out, s_in, s_out, 0})) return false;
+    Segment placed = segment;
+    placed.t_out = packets_.distance(ray, z);
+    placed.t_in = placed.t_out - segment.t_out;
+    if (first(placed)) return false;
     numbers_[ray].value = first.depth;
     return true;
   }
@@ -126,13 +130,25 @@ class ModePacketTiles : public TileMaker {
     const Mode mode = frame_.settings().mode;
     local.numbers.assign(std::size_t{kTile} * kTile, PacketNumber::before(mode));
     const FirstOfTile first(frame_, visible_, local.packets, std::span(local.numbers));
-    ModePackets packets{mode, &extinction_, &first, local.numbers, {}};
+    ModePackets packets;
+    packets.mode = mode;
+    packets.extinction = &extinction_;
+    packets.first = &first;
+    packets.numbers = local.numbers;
+    if (!is_linear(frame_.scene(), frame_.settings())) packets.order = frame_.settings().order;
+    packets.tolerance =
+        std::max(static_cast<float>(frame_.tolerance()), std::numeric_limits<float>::min());
+    [[maybe_unused]] const bool curved =
+        packets.order != ScalarOrder::linear && mode != Mode::cell_count;
     local.packets.walk_by([&](std::span<PacketColor> colors, int axis, PacketFeeder& feeder) {
       packets.colors = colors;
-      if constexpr (std::is_same_v<typename Walkable::Walker, RectilinearWalker>)
+      if constexpr (std::is_same_v<typename Walkable::Walker, RectilinearWalker>) {
         reduce_packets(walkable_.mesh, packets, feeder);
-      else
+      } else {
+        if constexpr (kCurvedPackets<Walkable>)
+          if (curved) return reduce_curved_packets(walkable_.mesh, packets, axis, feeder);
         reduce_packets(walkable_.mesh, packets, axis, feeder);
+      }
     });
   }
 
@@ -150,10 +166,10 @@ class ModePacketTiles : public TileMaker {
 bool has_mode_packets(const Frame& frame) {
   const RenderSettings& settings = frame.settings();
   // Cells are the same at any order.
-  const bool linear = is_linear(frame.scene(), settings) || settings.mode == Mode::cell_count;
-  return settings.mode != Mode::volume && linear && has_packets(frame.scene()) &&
-         !is_classified(frame.scene(), settings) && settings.clip_planes.empty() &&
-         !settings.scalar_twin && settings.channels.empty();
+  return settings.mode != Mode::volume &&
+         (settings.mode == Mode::cell_count || has_packets_of_order(frame.scene(), settings)) &&
+         has_packets(frame.scene()) && !is_classified(frame.scene(), settings) &&
+         settings.clip_planes.empty() && !settings.scalar_twin && settings.channels.empty();
 }
 
 std::unique_ptr<TileMaker> mode_packet_tiles(Frame& frame) {

@@ -8,6 +8,7 @@
 #include "plume/lib/render.h"
 #include "plume/lib/volume_packets.h"
 #include "plume/preint/piece_table.h"
+#include "plume/traverse/segment.h"
 
 namespace plume {
 
@@ -42,10 +43,9 @@ class PacketFirst {
   };
   /// Around a scalar.
   virtual Clear around(float scalar) const = 0;
-  /// Whether a segment that ends at the local z, `length` in world units, contributes; takes it
-  /// down if so.
-  virtual bool contributes(std::uint32_t ray, float z, float length, float s_in,
-                           float s_out) const = 0;
+  /// Whether a segment that ends at the local z contributes; takes it down if so. Of the segment
+  /// t_in is 0, and t_out its length.
+  virtual bool contributes(std::uint32_t ray, float z, const Segment& segment) const = 0;
 };
 
 /// What packets are to find. Spans are by PacketStart::ray.
@@ -53,6 +53,8 @@ struct ModePackets {
   Mode mode = Mode::maximum;                    ///< all but `volume`
   const ExtinctionTable* extinction = nullptr;  ///< mode optical_depth
   const PacketFirst* first = nullptr;           ///< mode depth
+  ScalarOrder order = ScalarOrder::linear;      ///< or quadratic, or cubic
+  float tolerance = 0;                          ///< as CurvedPackets has it
   std::span<PacketNumber> numbers;
   std::span<PacketColor> colors;  ///< cells, z and opaque alone are used
 };
@@ -75,5 +77,13 @@ void reduce_packets(const WalkableCells& mesh, const ModePackets& packets, int a
 /// On rays of all axes together. Requires walked_by_packets(mesh).
 void reduce_packets(const WalkableRectilinear& mesh, const ModePackets& packets,
                     PacketFeeder& feeder);
+
+/// The same with segments of packets.order, quadratic or cubic, of a field on points, in all modes
+/// but cell_count: maxima, minima and integrals are those of the polynomials. Scalars inside of
+/// cells as composite_curved_packets() (curved_packets.h) has them.
+void reduce_curved_packets(const WalkableGrid& mesh, const ModePackets& packets, int axis,
+                           PacketFeeder& feeder);
+void reduce_curved_packets(const WalkableCells& mesh, const ModePackets& packets, int axis,
+                           PacketFeeder& feeder);
 
 }  // namespace plume

@@ -31,11 +31,6 @@ class TileLight : public PacketLight {
   const PacketTileOf<Walkable>& tile_;
 };
 
-// Whether there are packets above order 1. (Tetrahedra are linear.)
-template <class Walkable>
-constexpr bool kCurved = std::is_same_v<typename Walkable::Walker, GridWalker> ||
-                         std::is_same_v<typename Walkable::Walker, CellWalker>;
-
 // `Twin` makes the pixels of rays that packets decline.
 template <class Walkable, class Twin>
 class PacketTiles : public TileMaker {
@@ -85,7 +80,7 @@ class PacketTiles : public TileMaker {
   }
 
   void composite_curved(PacketTileOf<Walkable>& packets, const PieceTable& volume) const {
-    if constexpr (kCurved<Walkable>) {
+    if constexpr (kCurvedPackets<Walkable>) {
       const RenderSettings& settings = frame_.settings();
       CurvedPackets curved{&volume,
                            settings.order,
@@ -107,11 +102,6 @@ class PacketTiles : public TileMaker {
   tbb::enumerable_thread_specific<PacketTileOf<Walkable>> packets_;
 };
 
-bool has_curved_packets(const Scene& scene) {
-  return std::visit([](const auto& walkable) { return kCurved<std::decay_t<decltype(*walkable)>>; },
-                    scene.body().walkable);
-}
-
 }  // namespace
 
 bool has_packets(const Scene& scene) {
@@ -127,18 +117,24 @@ bool has_packets(const Scene& scene) {
       scene.body().walkable);
 }
 
+bool has_packets_of_order(const Scene& scene, const RenderSettings& settings) {
+  if (is_linear(scene, settings)) return true;
+  return (settings.order == ScalarOrder::quadratic || settings.order == ScalarOrder::cubic) &&
+         std::visit(
+             [](const auto& walkable) { return kCurvedPackets<std::decay_t<decltype(*walkable)>>; },
+             scene.body().walkable);
+}
+
 std::optional<PacketPieces> pieces_for_packets(const Frame& frame) {
   const RenderSettings& settings = frame.settings();
-  const bool curved =
-      (settings.order == ScalarOrder::quadratic || settings.order == ScalarOrder::cubic) &&
-      !is_classified(frame.scene(), settings) && has_curved_packets(frame.scene());
   const bool served =
-      (is_linear(frame.scene(), settings) || curved) && has_packets(frame.scene()) &&
+      has_packets_of_order(frame.scene(), settings) && has_packets(frame.scene()) &&
       settings.clip_planes.empty() && !settings.scalar_twin && settings.mode == Mode::volume &&
       settings.integrator.kind == IntegratorKind::closed_form && settings.channels.empty();
   if (!served) return std::nullopt;
   const Classification& classification = frame.scene().classification();
   if (!is_classified(frame.scene(), settings)) return PieceTable(frame.scene().transfer_function());
+  if (!is_linear(frame.scene(), settings)) return std::nullopt;
   if (settings.interval_way != IntervalWay::split) return std::nullopt;
   if (!classification.intervals.empty() && settings.interval_form != IntervalForm::exponential)
     return std::nullopt;

@@ -12,7 +12,7 @@ namespace HWY_NAMESPACE {
 
 void ReduceRectilinear(const WalkableRectilinear& mesh, const ModePackets& packets,
                        PacketFeeder& feeder) {
-  ReduceBy(packets, mesh.cell_values, [&](auto& consumer) { Walk(mesh, consumer, feeder); });
+  ReduceBy<true>(packets, mesh.cell_values, [&](auto& consumer) { Walk(mesh, consumer, feeder); });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -30,8 +30,8 @@ void WalkInTurn(const WalkableTets& mesh, int axis, Consumer& consumer, PacketFe
 
 void ReduceTet(const WalkableTets& mesh, const ModePackets& packets, int axis,
                PacketFeeder& feeder) {
-  ReduceBy(packets, mesh.cell_values,
-           [&](auto& consumer) { WalkInTurn(mesh, axis, consumer, feeder); });
+  ReduceBy<true>(packets, mesh.cell_values,
+                 [&](auto& consumer) { WalkInTurn(mesh, axis, consumer, feeder); });
 }
 
 }  // namespace HWY_NAMESPACE

@@ -56,8 +56,8 @@ std::unique_ptr<TileMaker> table_tiles(Frame& frame);
 /// The modes that show one number a ray.
 std::unique_ptr<TileMaker> mode_tiles(Frame& frame);
 
-/// Whether packets can make those modes' pictures: of linear segments and a volume alone, without
-/// clip planes and further channels.
+/// Whether packets can make those modes' pictures: of a volume alone, without clip planes and
+/// further channels, of segments of the orders that there are packets for.
 bool has_mode_packets(const Frame& frame);
 
 /// The same pictures by packets of rays. Requires has_mode_packets(frame).
@@ -65,5 +65,7 @@ std::unique_ptr<TileMaker> mode_packet_tiles(Frame& frame);
 
 /// Whether there are packets for what the scene is walked as.
 bool has_packets(const Scene& scene);
+/// And whether they are for the scalar's order, of a scene that has them.
+bool has_packets_of_order(const Scene& scene, const RenderSettings& settings);
 
 }  // namespace plume

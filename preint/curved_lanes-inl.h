@@ -28,8 +28,11 @@ namespace optics {
 template <std::size_t kInner>
 class CurvedLanes {
  public:
+  static constexpr std::size_t kCount = kInner;
+
+  // Refers to the inner scalars.
   HWY_INLINE CurvedLanes(MF curved, VF s_in, VF s_out, const VF (&inner)[kInner])
-      : s_in_(s_in), s_out_(s_out) {
+      : curved_(curved), inner_(inner), s_in_(s_in), s_out_(s_out) {
     const DF d;
     auto times = [&](float factor, VF value) { return hn::Mul(hn::Set(d, factor), value); };
     const VF all = hn::Sub(s_out, s_in);
@@ -66,6 +69,38 @@ class CurvedLanes {
   // At a share of the way, 0 to 1.
   HWY_INLINE VF At(VF u) const {
     return hn::MulAdd(u, hn::MulAdd(u, hn::MulAdd(u, cube_, square_), slope_), s_in_);
+  }
+
+  // What it was made of.
+  HWY_INLINE MF Curves() const { return curved_; }
+  HWY_INLINE const VF* Inner() const { return inner_; }
+
+  // The integral over [0, 1]; not a number where any value is not finite.
+  HWY_INLINE VF Mean() const {
+    const DF d;
+    const VF cubes = hn::MulAdd(cube_, hn::Set(d, 0.25f), hn::Mul(square_, hn::Set(d, 1.0f / 3)));
+    return hn::MulAdd(hn::Set(d, 0.5f), slope_, hn::Add(cubes, s_in_));
+  }
+
+  // How far it is from its chord at the most.
+  HWY_INLINE VF Bend() const { return bend_; }
+
+  // Calls visit(lanes, value) for the values where the derivative is 0 between 0 and 1.
+  template <class Visit>
+  HWY_INLINE void ForEachExtremum(const Visit& visit) const {
+    const DF d;
+    const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+    // a u^2 + 2 b u + c, by the formula that does not cancel; what is divided by 0 is not between.
+    const VF a = hn::Mul(hn::Set(d, 3.0f), cube_);
+    const VF discriminant = hn::MulSub(square_, square_, hn::Mul(a, slope_));
+    const MF turns = hn::Gt(discriminant, zero);
+    if (HWY_LIKELY(hn::AllFalse(d, turns))) return;
+    const VF root = hn::Sqrt(hn::Max(discriminant, zero));
+    const VF q = hn::Neg(hn::Add(square_, hn::CopySign(root, square_)));
+    for (const VF u : {hn::Div(slope_, q), hn::Div(q, a)}) {
+      const MF inside = hn::And(turns, hn::And(hn::Gt(u, zero), hn::Lt(u, one)));
+      if (!hn::AllFalse(d, inside)) visit(inside, At(u));
+    }
   }
 
   // Calls visit(active, s_in, s_out, length) for parts of equal length that differ from the
@@ -110,6 +145,8 @@ class CurvedLanes {
     return hn::Add(largest, zeros);
   }
 
+  MF curved_;
+  const VF* inner_;
   VF s_in_, s_out_, slope_, square_, cube_, bend_;
 };
 

@@ -12,6 +12,7 @@
 #include "hwy/targets.h"
 #include "plume/datasets/generate.h"
 #include "plume/lib/plume.h"
+#include "plume/lib/render_modes.h"
 #include "plume/mesh/explicit_cells.h"
 #include "plume/tests/lib/slabs.h"
 #include "plume/traverse/packets.h"
@@ -114,6 +115,55 @@ TEST_P(CurvedPackets, CompositeAsTheTwinDoes) {
   EXPECT_GT(from_linear, 5e-3);
   EXPECT_GT(from_quadratic, 1e-4);
   EXPECT_LT(from_quadratic, from_linear);
+}
+
+// Numbers in shares of what they may come to: the field's range, extinctions up to 4, and the box's
+// diagonal.
+double bound_of(Mode mode) {
+  switch (mode) {
+    case Mode::maximum:
+    case Mode::minimum:
+    case Mode::average:
+    case Mode::integral:
+      return 4e-6;
+    case Mode::optical_depth:
+      return 4 * kBound;
+    case Mode::depth:
+      // Where a polynomial of such a value meets the first knot.
+      return 1e-4;
+    default:
+      return 0;
+  }
+}
+
+TEST_P(CurvedPackets, FindTheNumbersThatTheTwinFinds) {
+  Scene scene(wavy(generate(GetParam(), {9, 0.2, 2})));
+  scene.set_transfer_function(bumps());
+  const Camera camera = oblique(scene);
+  for_each_set([&] {
+    for (const ScalarOrder order : kHigher)
+      for (const Mode mode : {Mode::maximum, Mode::minimum, Mode::average, Mode::integral,
+                              Mode::optical_depth, Mode::depth, Mode::cell_count}) {
+        SCOPED_TRACE(in_words(mode).name);
+        RenderSettings settings = settings_of(order);
+        settings.mode = mode;
+        const RenderResult packets = render(scene, camera, settings);
+        settings.scalar_twin = true;
+        const RenderResult twin = render(scene, camera, settings);
+        EXPECT_GT(packets.statistics.rays_in_packets, 0u);
+        EXPECT_EQ(twin.statistics.rays_in_packets, 0u);
+        double worst = 0;
+        for (std::size_t i = 0; i < twin.image.channels[0].values.size(); ++i) {
+          ASSERT_EQ(packets.image.rgba[4 * i + 3], twin.image.rgba[4 * i + 3]) << i;
+          if (twin.image.rgba[4 * i + 3] == 0) continue;
+          const double difference = std::abs(static_cast<double>(twin.image.channels[0].values[i]) -
+                                             packets.image.channels[0].values[i]);
+          ASSERT_FALSE(std::isnan(difference)) << i;
+          worst = std::max(worst, difference);
+        }
+        EXPECT_LE(worst, bound_of(mode));
+      }
+  });
 }
 
 TEST_P(CurvedPackets, GoOnBehindGaps) {
