@@ -117,7 +117,8 @@ class ModePacketTiles : public TileMaker {
           Pixel pixel = fresh_;
           take(pixel, local.numbers[ray], result.color);
           frame_.put_raw(place, pixel.value(), pixel.seen());
-        });
+        },
+        [&](const PixelPlace& place) { frame_.put_raw(place, fresh_.value(), fresh_.seen()); });
   }
 
  private:

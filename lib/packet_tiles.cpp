@@ -56,7 +56,8 @@ class PacketTiles : public TileMaker {
           rgba[1] = result.color.g;
           rgba[2] = result.color.b;
           rgba[3] = 1 - result.color.transmittance;
-        });
+        },
+        [](const PixelPlace&) {});  // pixels are empty from the start
   }
 
  private:

@@ -15,8 +15,8 @@ namespace HWY_NAMESPACE {
 template <class Consumer>
 void WalkInTurn(const WalkableTets& mesh, int axis, Consumer& consumer, PacketFeeder& feeder) {
   auto walk = [&]<int kAxis>() {
-    PacketWalk<TetSteps<kAxis>, kPackets, false, Consumer>(TetSteps<kAxis>(mesh), consumer, feeder)
-        .run();
+    using Steps = TetSteps<kAxis, false>;
+    PacketWalk<Steps, kPackets, false, Consumer>(Steps(mesh), consumer, feeder).run();
   };
   switch (axis) {
     case 0:
