@@ -1,6 +1,7 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -11,6 +12,7 @@
 #include "plume/lib/mode_packets.h"
 #include "plume/lib/mode_pixels.h"
 #include "plume/lib/packet_pixels.h"
+#include "plume/lib/render_modes.h"
 #include "plume/lib/render_plan.h"
 #include "plume/preint/visible_scalars.h"
 
@@ -171,6 +173,22 @@ bool has_mode_packets(const Frame& frame) {
          (settings.mode == Mode::cell_count || has_packets_of_order(frame.scene(), settings)) &&
          has_packets(frame.scene()) && !is_classified(frame.scene(), settings) &&
          settings.clip_planes.empty() && !settings.scalar_twin && settings.channels.empty();
+}
+
+double mode_packet_error(const Scene& scene, Mode mode) {
+  constexpr double kOfNumbers = 1e-5;
+  if (mode == Mode::cell_count) return 0;
+  if (in_words(mode).shade != ShadeBy::transfer_function) return kOfNumbers;
+  const auto& knots = scene.transfer_function().knots;
+  const double range = static_cast<double>(scene.field().high) - scene.field().low;
+  double steepest = 0;
+  for (std::size_t k = 1; k < knots.size(); ++k)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double change = std::abs(knots[k].optics.color[c] - knots[k - 1].optics.color[c]);
+      const double width = static_cast<double>(knots[k].scalar) - knots[k - 1].scalar;
+      if (change > 0) steepest = std::max(steepest, change / width);  // infinite at a step
+    }
+  return steepest * range * kOfNumbers;
 }
 
 std::unique_ptr<TileMaker> mode_packet_tiles(Frame& frame) {

@@ -41,7 +41,10 @@ RenderResult render_here(const Scene& scene, const Camera& camera, const RenderS
   const bool had_hierarchy = has_hierarchy(scene);
   const auto why_walked = no_search(scene, effective);
   std::optional<PacketPieces> pieces = pieces_for_packets(frame);
-  bool by_packets = pieces || has_mode_packets(frame);
+  // Numbers in single precision, where that is no more than a share of what was asked for.
+  const bool single_will_do = !settings.tolerance || mode_packet_error(scene, effective.mode) <=
+                                                         settings.tolerance->max_error / 4;
+  bool by_packets = pieces || (single_will_do && has_mode_packets(frame));
   frame.set_empty_space(find_empty_space(scene, effective, by_packets, plan));
   by_packets = by_packets && !frame.empty_space();
   if (!why_walked)
