@@ -11,17 +11,52 @@
 // clang-format on
 
 #include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <type_traits>
 #include <vector>
 
 #include "hwy/highway.h"
 #include "plume/lib/classified_consumer-inl.h"
-#include "plume/lib/piece_tables-inl.h"
 #include "plume/lib/volume_consumer-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
+
+// A table of any size, its pieces fetched like the points.
+template <class Piece>
+class FetchedTable {
+ public:
+  explicit FetchedTable(const std::vector<Piece>& pieces) : first_(&pieces.data()->low) {
+    static_assert(sizeof(Piece) % (4 * sizeof(float)) == 0);
+  }
+  template <std::uint32_t kGroup>
+  HWY_INLINE optics::Record four(VU piece) const {
+    const DU du;
+    constexpr std::uint32_t kPairs = sizeof(Piece) / (2 * sizeof(float));
+    HWY_ALIGN std::uint32_t pairs[kMaxLanes];
+    hn::Store(hn::Add(hn::Mul(piece, hn::Set(du, kPairs)), hn::Set(du, 2 * kGroup)), du, pairs);
+    const FourFloats values = LoadFour(first_, pairs);
+    return {values.a, values.b, values.c, values.d};
+  }
+
+ private:
+  const float* first_;
+};
+
+// Calls composite(table) with the table that is had fastest.
+template <class Piece, class Composite>
+void WithTable(const std::vector<Piece>& pieces, const Composite& composite) {
+#if HWY_TARGET != HWY_SCALAR
+  // 16 pieces of a classification, for which eight lanes need two permutations an entry.
+  constexpr bool kTwo =
+      std::is_same_v<Piece, ClassifiedPieces::Piece> && hn::MaxLanes(optics::DF()) == 8;
+  using Table = optics::PermutedTable<Piece, kTwo ? 2 : 1>;
+  if (Table::fits(pieces)) return composite(Table(pieces));
+#endif
+  composite(FetchedTable<Piece>(pieces));
+}
 
 // Composites by walk(consumer).
 template <class Walk>

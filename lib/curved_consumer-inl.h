@@ -17,8 +17,8 @@
 #include <type_traits>
 
 #include "hwy/highway.h"
+#include "plume/lib/composite_by-inl.h"
 #include "plume/lib/curved_packets.h"
-#include "plume/lib/piece_tables-inl.h"
 #include "plume/lib/volume_consumer-inl.h"
 #include "plume/preint/classified_form-inl.h"
 #include "plume/preint/curved_lanes-inl.h"

@@ -18,8 +18,8 @@
 #include <vector>
 
 #include "hwy/highway.h"
+#include "plume/lib/composite_by-inl.h"
 #include "plume/lib/mode_packets.h"
-#include "plume/lib/piece_tables-inl.h"
 #include "plume/preint/optical_depth-inl.h"
 #include "plume/traverse/packet_walk-inl.h"
 

@@ -168,6 +168,9 @@ class ModePacketTiles : public TileMaker {
 
 bool has_mode_packets(const Frame& frame) {
   const RenderSettings& settings = frame.settings();
+  const auto* tets =
+      std::get_if<std::unique_ptr<Walkable<TetWalker>>>(&frame.scene().body().walkable);
+  if (tets != nullptr && (*tets)->mesh.is_compact()) return false;
   // Cells are the same at any order.
   return settings.mode != Mode::volume &&
          (settings.mode == Mode::cell_count || has_packets_of_order(frame.scene(), settings)) &&

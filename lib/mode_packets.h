@@ -68,6 +68,8 @@ struct ModePackets {
 /// other scalars differ by rounding, 1e-6 of the field's range in tests/lib/mode_packets_test.cpp;
 /// sums are compensated, so that what they differ by does not grow with the number of cells: 1e-6
 /// of the ray's way through the mesh's box times the largest scalar or extinction.
+///
+/// Tetrahedra are to be whole ones (!is_compact()).
 void reduce_packets(const WalkableTets& mesh, const ModePackets& packets, int axis,
                     PacketFeeder& feeder);
 void reduce_packets(const WalkableGrid& mesh, const ModePackets& packets, int axis,
