@@ -81,8 +81,7 @@ class CellSteps {
     return packet.cell;
   }
 
-  template <class AnyPacket>
-  HWY_INLINE void Prefetch(const State&, const AnyPacket&) const {}
+  HWY_INLINE void Prefetch(const State&) const {}
 
   template <bool kMeasure>
   HWY_INLINE StepResult Step(State& state, Packet<kMeasure>& packet) const {

@@ -151,8 +151,7 @@ class GridSteps {
     return CellAt(packet.index);
   }
 
-  template <class AnyPacket>
-  HWY_INLINE void Prefetch(const State& state, const AnyPacket&) const {
+  HWY_INLINE void Prefetch(const State& state) const {
     for (const auto& corner : state.back_by_2) HWY_NAMESPACE::Prefetch(points_, corner);
   }
 

@@ -40,6 +40,7 @@ SceneOptions scene_options(const RenderArguments& args, const RenderSettings& se
   options.cell_data = chosen(kCellData, args.cell_data);
   options.keep_cell_numbers = asks_for(args.channels, "cell_id");
   options.keep_gradients = settings.lighting || asks_for(args.channels, "normal");
+  options.compact_tetrahedra = args.compact;
   return options;
 }
 

@@ -133,6 +133,18 @@ void walk_packet_passages_avx2(const BenchMesh& mesh, const BenchView& view, Mod
   limit_packet_instruction_sets(0);
 }
 
+void walk_compact_passages(const BenchMesh& mesh, const BenchView& view, Mode mode,
+                           std::span<PassageSum> sums) {
+  walk_form(mesh.compact_tets, mesh.optics, view, mode, sums);
+}
+
+void walk_compact_passages_avx2(const BenchMesh& mesh, const BenchView& view, Mode mode,
+                                std::span<PassageSum> sums) {
+  limit_packet_instruction_sets(HWY_AVX2);
+  walk_compact_passages(mesh, view, mode, sums);
+  limit_packet_instruction_sets(0);
+}
+
 bool packets_have_more_than_avx2() { return (hwy::SupportedTargets() & HWY_AVX3) != 0; }
 
 }  // namespace plume::bench
