@@ -47,8 +47,12 @@ RenderResult render_here(const Scene& scene, const Camera& camera, const RenderS
   const bool had_hierarchy = has_hierarchy(scene);
   const auto why_walked = no_search(scene, effective);
   std::optional<PacketPieces> pieces = pieces_for_packets(frame);
-  frame.set_empty_space(find_empty_space(scene, effective, pieces.has_value(), plan));
-  if (frame.empty_space()) pieces.reset();
+  // Numbers in single precision, where that is no more than a share of what was asked for.
+  const bool single_will_do = !settings.tolerance || mode_packet_error(scene, effective.mode) <=
+                                                         settings.tolerance->max_error / 4;
+  bool by_packets = pieces || (single_will_do && has_mode_packets(frame));
+  frame.set_empty_space(find_empty_space(scene, effective, by_packets, plan));
+  by_packets = by_packets && !frame.empty_space();
   if (!why_walked)
     plan.push_back(fmt::format(
         "rays: through a hierarchy of cells ({}), as only {}",
@@ -57,10 +61,9 @@ RenderResult render_here(const Scene& scene, const Camera& camera, const RenderS
                                        : "cells with a greater or lesser scalar need a look"));
   else if (has_packets(scene) && !frame.empty_space())
     plan.push_back(
-        pieces ? fmt::format("rays: in packets, {}", packet_instruction_set())
-               : "rays: one by one (packets serve the volume mode by the closed form, "
-                 "at order 1, without tables or the linear form of intervals, clip planes and "
-                 "further channels)");
+        by_packets ? fmt::format("rays: in packets, {}", packet_instruction_set())
+                   : "rays: one by one (packets serve order 1, volumes by the closed form, without "
+                     "tables or the linear form of intervals, clip planes and further channels)");
   if (why_walked && is_classified(scene, settings) && !scene.classification().isosurfaces.empty())
     plan.push_back(fmt::format("rays: walked, not through a hierarchy of cells: {}", *why_walked));
   if (settings.mode == Mode::volume) {
@@ -81,7 +84,8 @@ RenderResult render_here(const Scene& scene, const Camera& camera, const RenderS
       is_classified(scene, settings) && settings.interval_way == IntervalWay::table;
   const auto maker = by_table                         ? table_tiles(frame)
                      : !why_walked                    ? searched_tiles(frame, integrator)
-                     : pieces                         ? packet_tiles(frame, integrator, *pieces)
+                     : by_packets && pieces           ? packet_tiles(frame, integrator, *pieces)
+                     : by_packets                     ? mode_packet_tiles(frame)
                      : is_classified(scene, settings) ? classified_tiles(frame, integrator)
                      : settings.mode != Mode::volume  ? mode_tiles(frame)
                                                       : volume_tiles(frame, integrator);

@@ -132,9 +132,9 @@ struct RenderSettings {
   double early_termination = 1e-4;
   /// Threads to use, at most those there are; 0 for all. The picture is the same for any number.
   int threads = 0;
-  /// Walk ray by ray in plain scalar code where packets of rays or a hierarchy of cells would do:
-  /// for comparison. Packets take the same way through the mesh, and pictures differ by less than
-  /// 1e-5; those through the hierarchy not at all.
+  /// Plain scalar code, ray by ray, where packets or a hierarchy of cells would do: to compare.
+  /// Packets take the same way through the mesh; pictures differ by less than 1e-5, above order 1
+  /// also by what scalar_tolerance makes of the scalar; those by the hierarchy not at all.
   bool scalar_twin = false;
   /// Read where several scenes are rendered.
   Overlap overlap = Overlap::add;

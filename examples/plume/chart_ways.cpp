@@ -55,7 +55,7 @@ std::string integrator_name(const IntegratorSettings& integrator) {
 
 bool would_take_packets(const Scene& scene, const RenderSettings& settings) {
   return has_packets(scene) && settings.integrator.kind == IntegratorKind::closed_form &&
-         is_linear(scene, settings);
+         has_packets_of_order(scene, settings);
 }
 
 // Collects settings, each once.
