@@ -29,6 +29,13 @@ std::vector<SoughtIsovalue> sought_isovalues(const Classification& classificatio
   return sought;
 }
 
+TraceResult met(const SearchedRay& found) {
+  TraceResult result;
+  result.entries = static_cast<std::uint32_t>(found.entries());
+  result.cells = found.cells();
+  return result;
+}
+
 template <class Integrator>
 class SearchedTiles : public TileMaker {
  public:
@@ -39,6 +46,7 @@ class SearchedTiles : public TileMaker {
         pixels_(frame, walkable, integrator),
         isovalues_(sought_isovalues(frame.scene().classification())),
         connected_(frame.gap()),
+        background_(frame.settings().mode == Mode::volume && frame.settings().channels.empty()),
         bundles_([&] { return TileBundles(walkable.mesh, hierarchy); }) {}
 
   void make(const Tile& tile, Counts& counts) override {
@@ -57,6 +65,7 @@ class SearchedTiles : public TileMaker {
           const SearchedRay& found = bundles.found[i];
           if (found.declined()) return walk(ray);
           ++counts.searched;
+          if (found.segments().empty() && background_) return counts.add(met(found));
           counts.add(pixels_.make(ray.place, ray.ray, counts,
                                   [&](auto& pixel) { return give(found, pixel); }));
         },
@@ -66,9 +75,7 @@ class SearchedTiles : public TileMaker {
  private:
   template <class Pixel>
   static TraceResult give(const SearchedRay& found, Pixel& pixel) {
-    TraceResult result;
-    result.entries = static_cast<std::uint32_t>(found.entries());
-    result.cells = found.cells();
+    TraceResult result = met(found);
     for (const Segment& segment : found.segments()) {
       pixel.pass_over();
       if (pixel(segment)) continue;
@@ -83,6 +90,7 @@ class SearchedTiles : public TileMaker {
   ClassifiedPixels<Tets, Integrator> pixels_;
   const std::vector<SoughtIsovalue> isovalues_;
   const double connected_;
+  const bool background_;  // a pixel is the image's background until something is put there
   tbb::enumerable_thread_specific<TileBundles> bundles_;
 };
 
@@ -109,10 +117,7 @@ class ExtremeTiles : public TileMaker {
           const SearchedRay& found = bundles.found[i];
           if (found.declined()) return walk(ray);
           ++counts.searched;
-          TraceResult result;
-          result.entries = static_cast<std::uint32_t>(found.entries());
-          result.cells = found.cells();
-          counts.add(result);
+          counts.add(met(found));
           // As if the best segment were the only one.
           Pixel pixel;
           const float value = bundles.values[i];

@@ -13,14 +13,17 @@ namespace HWY_NAMESPACE {
 
 void SearchIsosurfaces(LeafCache& leaves, const RayBundle& bundle, IsosurfaceTarget& target) {
   using Search = CellSearch<IsosurfaceTarget>;
-  Search(leaves, bundle, target).Run(Search::Pass::all);
+  Search search(leaves, bundle, target);
+  search.Run(Search::Pass::all);
+  search.RunBoundary();
 }
 
 template <class Target>
 void SearchExtremes(LeafCache& leaves, const RayBundle& bundle, Target& target) {
   using Search = CellSearch<Target>;
   Search search(leaves, bundle, target);
-  search.Run(Search::Pass::special);
+  search.RunBoundary();
+  search.Run(Search::Pass::thin);
   target.boundary_done();
   search.Run(Search::Pass::inside);
 }

@@ -47,18 +47,9 @@ class ExtremeTarget {
     limits_[index] = std::fmin(limits_[index], best);
   }
 
-  void cross_boundary(std::size_t index, const TetCell& cell) {
-    const ShearedFrame& frame = bundle_.frame(index);
-    const TetPassage passage(cell, frame);
-    if (passage.ways() == TetPassage::Ways::none) return;
-    if (passage.ways() == TetPassage::Ways::two) return decline(index);
-    SearchedRay& ray = found_[index];
-    const WalkableTets::Cell& links = mesh_.cells[cell.cell];
-    auto cross = [&](const Crossing& place, bool in) {
-      ray.cross_boundary(frame.t(place.z), place.scalar, in);
-    };
-    if (links[passage.in_face()].cell == kNone) cross(passage.in(), true);
-    if (links[passage.out_face()].cell == kNone) cross(passage.out(), false);
+  void cross_boundary(std::size_t index, std::uint32_t face) {
+    cross_face(mesh_, face, bundle_.frame(index), found_[index]);
+    if (found_[index].declined()) limits_[index] = -kInfinity;
   }
 
   /// After the pass over the boundary. Passages that rounding may have overlap are walked.

@@ -35,7 +35,7 @@ class IsosurfaceTarget {
   std::span<const ScalarWindow> windows() const { return windows_; }
   const float* limits() const { return limits_.data(); }
   /// The greatest of them, or more.
-  float limit() {
+  float limit() const {
     if (limits_changed_) limit_ = *std::max_element(limits_.begin(), limits_.end());
     limits_changed_ = false;
     return limit_;
@@ -52,12 +52,9 @@ class IsosurfaceTarget {
     const Crossing in = passage.in(), out = passage.out();
     const double t_in = frame.t(in.z), t_out = frame.t(out.z);
     if (!(t_in <= t_out)) return decline(index);
-    const WalkableTets::Cell& links = mesh_.cells[cell.cell];
-    const std::uint32_t behind = links[passage.in_face()].cell;
-    if (behind == kNone) ray.cross_boundary(t_in, in.scalar, true);
-    if (links[passage.out_face()].cell == kNone) ray.cross_boundary(t_out, out.scalar, false);
     const Between between = crossed(in.scalar, out.scalar);
     if (between.any) {
+      const std::uint32_t behind = mesh_.cells[cell.cell][passage.in_face()].cell;
       if (!goes_forward(passage, in.z, behind)) return decline(index);
       ray.add({t_in, t_out, in.scalar, out.scalar, cell.cell});
       if (between.opaque && t_out < lasts_[index]) {
@@ -69,20 +66,10 @@ class IsosurfaceTarget {
     if (ray.declined()) set_limit(index, -kInfinity);
   }
 
-  /// The ray goes into or out of a cell that is not thin, and does not matter, at the boundary.
-  void cross_boundary(std::size_t index, const TetCell& cell) {
-    const ShearedFrame& frame = bundle_.frame(index);
-    const TetPassage passage(cell, frame);
-    if (passage.ways() == TetPassage::Ways::none) return;
-    if (passage.ways() == TetPassage::Ways::two) return decline(index);
-    SearchedRay& ray = found_[index];
-    const WalkableTets::Cell& links = mesh_.cells[cell.cell];
-    auto cross = [&](const Crossing& place, bool in) {
-      ray.cross_boundary(frame.t(place.z), place.scalar, in);
-    };
-    if (links[passage.in_face()].cell == kNone) cross(passage.in(), true);
-    if (links[passage.out_face()].cell == kNone) cross(passage.out(), false);
-    if (ray.declined()) set_limit(index, -kInfinity);
+  /// The ray crosses a face at the boundary: the number of one in the mesh's list.
+  void cross_boundary(std::size_t index, std::uint32_t face) {
+    cross_face(mesh_, face, bundle_.frame(index), found_[index]);
+    if (found_[index].declined()) set_limit(index, -kInfinity);
   }
 
   void finish(const SearchedRay::Gaps& gaps) {
@@ -116,7 +103,7 @@ class IsosurfaceTarget {
   }
 
   bool goes_forward(const TetPassage& passage, double z_in, std::uint32_t behind) const {
-    return (behind != kNone && !hierarchy_.near_special(behind) &&
+    return (behind != kNone && !hierarchy_.near_thin(behind) &&
             passage.enters_clear_of_edges(kClearOfEdges)) ||
            passage.comes_from_before(mesh_, z_in, kRounding);
   }
@@ -138,8 +125,8 @@ class IsosurfaceTarget {
   std::span<SearchedRay> found_;
   std::vector<ScalarWindow> windows_;
   alignas(64) std::array<float, RayBundle::kRays> limits_;
-  bool limits_changed_ = false;
-  float limit_ = kInfinity;
+  mutable bool limits_changed_ = false;
+  mutable float limit_ = kInfinity;
   std::array<double, RayBundle::kRays> lasts_;
 };
 
