@@ -16,7 +16,8 @@ namespace plume {
 namespace {
 
 bool has_hierarchy(const Scene& scene) {
-  return scene.body().hierarchy.made() || scene.body().ranges.made();
+  return scene.body().hierarchy.made() || scene.body().clusters.made() ||
+         scene.body().ranges.made();
 }
 
 // On the threads of the arena that it is called in.
@@ -44,11 +45,11 @@ RenderResult render_here(const Scene& scene, const Camera& camera, const RenderS
   frame.set_empty_space(find_empty_space(scene, effective, pieces.has_value(), plan));
   if (frame.empty_space()) pieces.reset();
   if (!why_walked)
-    plan.push_back(fmt::format(
-        "rays: through a hierarchy of cells ({}), as only {}",
-        scene.body().hierarchy.made() ? "made before" : "made for this picture",
-        is_classified(scene, settings) ? "isosurfaces are to be seen"
-                                       : "cells with a greater or lesser scalar need a look"));
+    plan.push_back(fmt::format("rays: through a hierarchy of cells ({}), as only {}",
+                               had_hierarchy ? "made before" : "made for this picture",
+                               is_classified(scene, settings)
+                                   ? "isosurfaces are to be seen"
+                                   : "cells with a greater or lesser scalar need a look"));
   else if (has_packets(scene) && !frame.empty_space())
     plan.push_back(
         pieces ? fmt::format("rays: in packets, {}", packet_instruction_set())

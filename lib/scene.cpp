@@ -211,6 +211,7 @@ void Scene::set_field(const Mesh& mesh, const FieldRequest& request) {
   body.default_map.reset();
   body.unit_distance.reset();
   body.hierarchy.reset();
+  body.clusters.reset();
   body.ranges.reset();
   take_words(body, read);
   std::visit(

@@ -11,6 +11,7 @@
 #include "plume/lib/gradient_field.h"
 #include "plume/lib/made_once.h"
 #include "plume/lib/scene.h"
+#include "plume/mesh/cell_clusters.h"
 #include "plume/mesh/cell_hierarchy.h"
 #include "plume/mesh/range_tree.h"
 #include "plume/preint/integrator_cache.h"
@@ -61,8 +62,10 @@ struct Scene::Body {
   std::optional<GradientField> gradients;
   mutable IntegratorCache integrators;  // a frame without a new transfer function builds no table
   std::vector<SceneSurface> surfaces;
-  /// Where a picture needs them: of tetrahedra, and of a rectilinear grid.
+  /// Where a picture needs them: of tetrahedra, of a grid or of cells of any kind, and of a
+  /// rectilinear grid.
   MadeOnce<CellHierarchy> hierarchy;
+  MadeOnce<CellClusters> clusters;
   MadeOnce<RangeTree> ranges;
 };
 

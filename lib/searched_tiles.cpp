@@ -17,7 +17,23 @@
 namespace plume {
 namespace {
 
-using Tets = Walkable<TetWalker>;
+// What is searched of a scene's form, and what of it a thread keeps.
+template <class Walkable>
+struct Searched {
+  using Hierarchy = CellClusters;
+  using Cache = ClusterCache<typename Walkable::Walker>;
+  static const Hierarchy& of(const Scene& scene, const Walkable& walkable) {
+    return scene.body().clusters.get([&] { return make_cell_clusters(walkable.mesh); });
+  }
+};
+template <>
+struct Searched<Walkable<TetWalker>> {
+  using Hierarchy = CellHierarchy;
+  using Cache = LeafCache;
+  static const Hierarchy& of(const Scene& scene, const Walkable<TetWalker>& walkable) {
+    return scene.body().hierarchy.get([&] { return make_cell_hierarchy(walkable.mesh); });
+  }
+};
 
 // In the order in which they are looked for.
 std::vector<SoughtIsovalue> sought_isovalues(const Classification& classification) {
@@ -36,22 +52,27 @@ TraceResult met(const SearchedRay& found) {
   return result;
 }
 
-template <class Integrator>
+template <class Walkable, class Integrator>
 class SearchedTiles : public TileMaker {
+  using Bundles = TileBundles<typename Searched<Walkable>::Cache>;
+
  public:
-  SearchedTiles(Frame& frame, const Tets& walkable, const CellHierarchy& hierarchy,
-                const Integrator& integrator)
+  SearchedTiles(Frame& frame, const Walkable& walkable, const Integrator& integrator)
       : frame_(frame),
         walkable_(walkable),
         pixels_(frame, walkable, integrator),
         isovalues_(sought_isovalues(frame.scene().classification())),
         connected_(frame.gap()),
         background_(frame.settings().mode == Mode::volume && frame.settings().channels.empty()),
-        bundles_([&] { return TileBundles(walkable.mesh, hierarchy); }) {}
+        bundles_([&] {
+          return Bundles(walkable.mesh, Searched<Walkable>::of(frame.scene(), walkable));
+        }) {
+    Searched<Walkable>::of(frame.scene(), walkable);
+  }
 
   void make(const Tile& tile, Counts& counts) override {
-    TileBundles& bundles = bundles_.local();
-    auto walk = [&](const TileBundles::TileRay& ray) {
+    Bundles& bundles = bundles_.local();
+    auto walk = [&](const typename Bundles::TileRay& ray) {
       counts.add(pixels_.make(ray.place, ray.ray, counts, [&](auto& pixel) {
         return trace_clipped(frame_, walkable_, ray.ray, pixel);
       }));
@@ -61,7 +82,7 @@ class SearchedTiles : public TileMaker {
         [&] {
           find_isosurfaces(bundles.leaves, isovalues_, connected_, bundles.bundle, bundles.found);
         },
-        [&](const TileBundles::TileRay& ray, std::size_t i) {
+        [&](const typename Bundles::TileRay& ray, std::size_t i) {
           const SearchedRay& found = bundles.found[i];
           if (found.declined()) return walk(ray);
           ++counts.searched;
@@ -86,34 +107,44 @@ class SearchedTiles : public TileMaker {
   }
 
   Frame& frame_;
-  const Tets& walkable_;
-  ClassifiedPixels<Tets, Integrator> pixels_;
+  const Walkable& walkable_;
+  ClassifiedPixels<Walkable, Integrator> pixels_;
   const std::vector<SoughtIsovalue> isovalues_;
   const double connected_;
   const bool background_;  // a pixel is the image's background until something is put there
-  tbb::enumerable_thread_specific<TileBundles> bundles_;
+  tbb::enumerable_thread_specific<Bundles> bundles_;
 };
 
 // The modes maximum and minimum.
-template <class Pixel>
+template <class Walkable, class Pixel>
 class ExtremeTiles : public TileMaker {
+  using Bundles = TileBundles<typename Searched<Walkable>::Cache>;
+
  public:
-  ExtremeTiles(Frame& frame, const Tets& walkable, const CellHierarchy& hierarchy)
-      : frame_(frame),
-        walkable_(walkable),
-        bundles_([&] { return TileBundles(walkable.mesh, hierarchy); }) {}
+  ExtremeTiles(Frame& frame, const Walkable& walkable)
+      : frame_(frame), walkable_(walkable), bundles_([&] {
+          return Bundles(walkable.mesh, Searched<Walkable>::of(frame.scene(), walkable));
+        }) {
+    Searched<Walkable>::of(frame.scene(), walkable);
+  }
 
   void make(const Tile& tile, Counts& counts) override {
-    TileBundles& bundles = bundles_.local();
-    auto walk = [&](const TileBundles::TileRay& ray) {
+    Bundles& bundles = bundles_.local();
+    auto walk = [&](const typename Bundles::TileRay& ray) {
       Pixel pixel;
       counts.add(follow_ray(frame_, walkable_, ray.place, pixel));
       frame_.put_raw(ray.place, pixel.value(), pixel.seen());
     };
-    const auto find = frame_.settings().mode == Mode::maximum ? find_greatest : find_least;
+    const bool greatest = frame_.settings().mode == Mode::maximum;
     bundles.for_each(
-        frame_, tile, [&] { find(bundles.leaves, bundles.bundle, bundles.found, bundles.values); },
-        [&](const TileBundles::TileRay& ray, std::size_t i) {
+        frame_, tile,
+        [&] {
+          if (greatest)
+            find_greatest(bundles.leaves, bundles.bundle, bundles.found, bundles.values);
+          else
+            find_least(bundles.leaves, bundles.bundle, bundles.found, bundles.values);
+        },
+        [&](const typename Bundles::TileRay& ray, std::size_t i) {
           const SearchedRay& found = bundles.found[i];
           if (found.declined()) return walk(ray);
           ++counts.searched;
@@ -129,8 +160,8 @@ class ExtremeTiles : public TileMaker {
 
  private:
   Frame& frame_;
-  const Tets& walkable_;
-  tbb::enumerable_thread_specific<TileBundles> bundles_;
+  const Walkable& walkable_;
+  tbb::enumerable_thread_specific<Bundles> bundles_;
 };
 
 }  // namespace
@@ -142,9 +173,10 @@ std::optional<std::string> no_search(const Scene& scene, const RenderSettings& s
     return "there is no isosurface to look for";
   if (!extreme && (classification.volume || !classification.intervals.empty()))
     return "all cells that are not empty are to be seen, not isosurfaces alone";
-  if (!std::holds_alternative<std::unique_ptr<Tets>>(scene.body().walkable))
-    return "it is for tetrahedra";
+  if (std::holds_alternative<std::unique_ptr<Walkable<RectilinearWalker>>>(scene.body().walkable))
+    return "it is for cells between points, not between planes";
   if (scene.field().association == Association::cell) return "the scalar is constant in each cell";
+  if (!is_linear(scene, settings)) return "the scalar is not linear along segments";
   if (!settings.clip_planes.empty()) return "clip planes cut rays";
   if (scene.surface_triangle_count() > 0 || !settings.depth_limit.empty())
     return "rays end at what is opaque";
@@ -156,20 +188,35 @@ std::optional<std::string> no_search(const Scene& scene, const RenderSettings& s
   return std::nullopt;
 }
 
-std::unique_ptr<TileMaker> searched_tiles(Frame& frame, const Integrator& integrator) {
-  const Tets& walkable = *std::get<std::unique_ptr<Tets>>(frame.scene().body().walkable);
-  const CellHierarchy& hierarchy =
-      frame.scene().body().hierarchy.get([&] { return make_cell_hierarchy(walkable.mesh); });
+namespace {
+
+template <class Walkable>
+std::unique_ptr<TileMaker> tiles_of(Frame& frame, const Walkable& walkable,
+                                    const Integrator& integrator) {
   if (frame.settings().mode == Mode::maximum)
-    return std::make_unique<ExtremeTiles<MaximumPixel>>(frame, walkable, hierarchy);
+    return std::make_unique<ExtremeTiles<Walkable, MaximumPixel>>(frame, walkable);
   if (frame.settings().mode == Mode::minimum)
-    return std::make_unique<ExtremeTiles<MinimumPixel>>(frame, walkable, hierarchy);
+    return std::make_unique<ExtremeTiles<Walkable, MinimumPixel>>(frame, walkable);
   return std::visit(
       [&](const auto& chosen) -> std::unique_ptr<TileMaker> {
-        return std::make_unique<SearchedTiles<std::decay_t<decltype(chosen)>>>(frame, walkable,
-                                                                               hierarchy, chosen);
+        using Chosen = std::decay_t<decltype(chosen)>;
+        return std::make_unique<SearchedTiles<Walkable, Chosen>>(frame, walkable, chosen);
       },
       integrator);
+}
+
+}  // namespace
+
+std::unique_ptr<TileMaker> searched_tiles(Frame& frame, const Integrator& integrator) {
+  return std::visit(
+      [&](const auto& walkable) -> std::unique_ptr<TileMaker> {
+        using Form = std::decay_t<decltype(*walkable)>;
+        if constexpr (std::is_same_v<Form, Walkable<RectilinearWalker>>)
+          return nullptr;  // no_search()
+        else
+          return tiles_of(frame, *walkable, integrator);
+      },
+      frame.scene().body().walkable);
 }
 
 }  // namespace plume

@@ -20,6 +20,7 @@
 #include "plume/traverse/cell_search.h"
 #include "plume/traverse/face_search-inl.h"
 #include "plume/traverse/ray_bundle.h"
+#include "plume/traverse/search_order-inl.h"
 #include "plume/traverse/tet_lanes-inl.h"
 #include "plume/traverse/tet_passage.h"
 #include "plume/traverse/tree_search-inl.h"
@@ -33,56 +34,20 @@ namespace hn = hwy::HWY_NAMESPACE;
 // Goes through the hierarchy and hands to the target (see isosurface_target.h) the cells that its
 // rays go through and that matter, more or less front to back, and all thin ones.
 template <class Target>
-class CellSearch {
+class CellSearch : public SearchOrder<Target> {
  public:
   CellSearch(LeafCache& leaves, const RayBundle& bundle, Target& target)
-      : leaves_(leaves),
-        hierarchy_(leaves.hierarchy()),
-        bundle_(bundle),
-        hull_(bundle, bundle.hull()),
-        forwards_(bundle.sign() > 0),
-        target_(target) {
-    for (std::size_t group = 0; group * ShearedLanes::Lanes() < bundle.size(); ++group)
-      hulls_[group] = HullTest(
-          bundle, bundle.hull(group * ShearedLanes::Lanes(),
-                              std::min(bundle.size(), (group + 1) * ShearedLanes::Lanes())));
-  }
+      : SearchOrder<Target>(bundle, target), leaves_(leaves), hierarchy_(leaves.hierarchy()) {}
 
-  // All that matters and all that is thin, or one of the two.
-  enum class Pass { all, thin, inside };
-
-  void Run(Pass pass) {
+  void Run(SearchPass pass) {
     pass_ = pass;
     TreeSearch<CellSearch>(hierarchy_.cells, hull_, *this).Run();
   }
   // All faces at the boundary.
-  void RunBoundary() { FaceSearch<Target>(leaves_.faces(), bundle_, hull_, target_).Run(); }
+  void RunBoundary() {
+    FaceSearch<FaceCache, Target>(leaves_.faces(), bundle_, hull_, target_).Run();
+  }
 
-  // What TreeSearch asks.
-  float limit() const { return target_.limit(); }
-  template <class D>
-  HWY_INLINE hn::Mask<D> Matters(D d, const float* least, const float* greatest) const {
-    if constexpr (Target::kKey != CellKey::place)
-      return hn::Le(hn::Load(d, least), hn::Load(d, greatest));
-    auto matters = hn::MaskFromVec(hn::Zero(d));
-    for (const ScalarWindow& window : target_.windows())
-      matters = hn::Or(matters, hn::And(hn::Lt(hn::Load(d, least), hn::Set(d, window.below)),
-                                        hn::Ge(hn::Load(d, greatest), hn::Set(d, window.from))));
-    return matters;
-  }
-  template <class D>
-  HWY_INLINE hn::Vec<D> Keys(D d, const float* low, const float* high, const float* least,
-                             const float* greatest) const {
-    if constexpr (Target::kKey == CellKey::place)
-      return forwards_ ? hn::Load(d, low) : hn::Neg(hn::Load(d, high));
-    else if (pass_ == Pass::thin)
-      return hn::Set(d, -std::numeric_limits<float>::infinity());
-    else
-      return Target::kKey == CellKey::least ? hn::Load(d, least) : hn::Neg(hn::Load(d, greatest));
-  }
-  std::uint32_t Opens(std::uint32_t matters, std::uint32_t thin) const {
-    return pass_ == Pass::thin ? thin : pass_ == Pass::inside ? matters : matters | thin;
-  }
   void AskFor(std::uint32_t leaf) const { leaves_.ask_for(leaf); }
 
   void Leaf(std::uint32_t number, bool matters) {
@@ -90,17 +55,17 @@ class CellSearch {
     const std::uint32_t first = number * static_cast<std::uint32_t>(kLeafCells);
     const std::uint32_t size =
         std::min(hierarchy_.cell_count - first, static_cast<std::uint32_t>(kLeafCells));
-    const unsigned thin = pass_ == Pass::inside ? 0 : hierarchy_.leaves[number].thin;
-    const bool look_inside = matters && pass_ != Pass::thin;
+    const unsigned thin = pass_ == SearchPass::inside ? 0 : hierarchy_.leaves[number].thin;
+    const bool look_inside = matters && pass_ != SearchPass::special;
     const unsigned wanted = (look_inside ? thin | MayMatter(number) : thin) & ((1u << size) - 1);
     if (wanted == 0) return;
     const ReadLeaf& leaf = leaves_.read(number, wanted);
     const std::size_t z = hull_.axis();
     HWY_ALIGN float keys[kLeafCells];
     for (std::size_t from = 0; from < kLeafCells; from += hn::Lanes(d))
-      hn::Store(
-          Keys(d, leaf.low[z] + from, leaf.high[z] + from, leaf.least + from, leaf.greatest + from),
-          d, keys + from);
+      hn::Store(this->Keys(d, leaf.low[z] + from, leaf.high[z] + from, leaf.least + from,
+                           leaf.greatest + from),
+                d, keys + from);
     for (std::size_t group = 0; group * ShearedLanes::Lanes() < bundle_.size(); ++group) {
       const std::size_t first_ray = group * ShearedLanes::Lanes();
       const ShearedLanes::D rays_of;
@@ -158,14 +123,14 @@ class CellSearch {
     return cell;
   }
 
+  using SearchOrder<Target>::bundle_;
+  using SearchOrder<Target>::hull_;
+  using SearchOrder<Target>::hulls_;
+  using SearchOrder<Target>::pass_;
+  using SearchOrder<Target>::target_;
+
   LeafCache& leaves_;
   const CellHierarchy& hierarchy_;
-  const RayBundle& bundle_;
-  const HullTest hull_;
-  const bool forwards_;
-  Target& target_;
-  HullTest hulls_[RayBundle::kRays];  // of as many rays as a vector has lanes
-  Pass pass_ = Pass::all;
 };
 
 }  // namespace HWY_NAMESPACE

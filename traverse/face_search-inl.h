@@ -18,6 +18,7 @@
 #include "hwy/highway.h"
 #include "plume/mesh/boundary_clusters.h"
 #include "plume/mesh/cluster_tree.h"
+#include "plume/traverse/cluster_cache.h"
 #include "plume/traverse/leaf_cache.h"
 #include "plume/traverse/ray_bundle.h"
 #include "plume/traverse/sheared_lanes-inl.h"
@@ -29,11 +30,12 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Hands to the target the faces at the boundary that its rays cross, front to back, more or less.
-template <class Target>
+// Hands to the target the faces at the boundary that its rays cross, or may cross where they are no
+// triangles, front to back, more or less. `Faces` is FaceCache or FaceBoxCache.
+template <class Faces, class Target>
 class FaceSearch {
  public:
-  FaceSearch(FaceCache& faces, const RayBundle& bundle, const HullTest& hull, Target& target)
+  FaceSearch(Faces& faces, const RayBundle& bundle, const HullTest& hull, Target& target)
       : faces_(faces),
         bundle_(bundle),
         hull_(hull),
@@ -58,7 +60,7 @@ class FaceSearch {
 
   void Leaf(std::uint32_t number, bool /*matters*/) {
     const HWY_CAPPED(float, kLeafFaces) d;
-    const LeafFaces& leaf = faces_.read(number);
+    const auto& leaf = faces_.read(number);
     HWY_ALIGN float keys[kLeafFaces];
     std::uint32_t meets = 0;
     const auto limit = hn::Set(d, target_.limit());
@@ -81,12 +83,16 @@ class FaceSearch {
                                             Crosses(lanes, leaf, place)));
         for (; rays != 0; rays &= rays - 1)
           target_.cross_boundary(first + static_cast<std::size_t>(__builtin_ctz(rays)),
-                                 static_cast<std::uint32_t>(kLeafFaces) * number + place);
+                                 faces_.number_of(leaf, place));
       }
     }
   }
 
  private:
+  HWY_INLINE static ShearedLanes::M Crosses(const ShearedLanes& lanes, const ReadCluster& leaf,
+                                            std::size_t place) {
+    return lanes.Meets(leaf.low, leaf.high, place);
+  }
   HWY_INLINE static ShearedLanes::M Crosses(const ShearedLanes& lanes, const LeafFaces& leaf,
                                             std::size_t place) {
     using Edge = ShearedLanes::Edge;
@@ -95,7 +101,7 @@ class FaceSearch {
     return hn::Xor(hn::Xor(Edge(a, b).right, Edge(b, c).right), Edge(c, a).right);
   }
 
-  FaceCache& faces_;
+  Faces& faces_;
   const RayBundle& bundle_;
   const HullTest& hull_;
   const bool forwards_;

@@ -37,6 +37,10 @@ class FaceCache {
       : mesh_(&mesh), tree_(&tree), leaves_(kLeaves) {}
 
   const ClusterTree& tree() const { return *tree_; }
+  /// The number in the mesh's list of a face of a leaf.
+  static std::uint32_t number_of(const LeafFaces& leaf, std::uint32_t place) {
+    return static_cast<std::uint32_t>(kLeafFaces) * leaf.leaf + place;
+  }
   /// Valid until the next call.
   const LeafFaces& read(std::uint32_t leaf) {
     LeafFaces& place = leaves_[leaf % kLeaves];

@@ -13,6 +13,7 @@
 #include <cstddef>
 
 #include "hwy/highway.h"
+#include "plume/traverse/hull_test-inl.h"
 #include "plume/traverse/ray_bundle.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -69,6 +70,20 @@ class ShearedLanes {
       area = hn::Abs(hn::Sub(forth, back));
     }
   };
+
+  // Rays that go through a box that lies beside others, widened by HullTest::kMargin.
+  template <std::size_t kBoxes>
+  HWY_INLINE M Meets(const float (&lows)[3][kBoxes], const float (&highs)[3][kBoxes],
+                     std::size_t box) const {
+    const D d;
+    const V z_low = hn::Set(d, lows[z_][box]), z_high = hn::Set(d, highs[z_][box]);
+    auto along = [&](std::size_t axis, V offset, V slope) HWY_ATTR {
+      const V a = hn::MulAdd(slope, z_low, offset), b = hn::MulAdd(slope, z_high, offset);
+      return hn::And(hn::Le(hn::Min(a, b), hn::Set(d, highs[axis][box] + HullTest::kMargin)),
+                     hn::Ge(hn::Max(a, b), hn::Set(d, lows[axis][box] - HullTest::kMargin)));
+    };
+    return hn::And(along(x_, offset_x_, slope_x_), along(y_, offset_y_, slope_y_));
+  }
 
  private:
   const std::size_t x_, y_, z_;

@@ -8,7 +8,6 @@
 
 #include "plume/mesh/walkable_tets.h"
 #include "plume/traverse/measure.h"
-#include "plume/traverse/searched_ray.h"
 #include "plume/traverse/tet_walker.h"
 
 namespace plume {
@@ -96,15 +95,5 @@ class TetPassage {
   std::size_t in_ = 0, out_ = 0;
   Ways ways_ = Ways::none;
 };
-
-/// Adds to what is known of a ray that it crosses a face at the boundary, which winds about it.
-inline void cross_face(const WalkableTets& mesh, std::uint32_t face, const ShearedFrame& frame,
-                       SearchedRay& ray) {
-  const TetWalker walker(mesh, frame);
-  const WalkableTets::Boundary& at = mesh.boundary[face];
-  const int winding = walker.boundary_winding(at);
-  const Crossing place = walker.measure_boundary(at, winding);
-  ray.cross_boundary(frame.t(place.z), place.scalar, winding * frame.sign() < 0);
-}
 
 }  // namespace plume
