@@ -40,8 +40,8 @@ RenderResult render_here(const Scene& scene, const Camera& camera, const RenderS
   plan = describe_plan(scene, effective);
   plan.insert(plan.begin(), reasons.begin(), reasons.end());
   const bool had_hierarchy = has_hierarchy(scene);
-  const auto why_walked = no_search(scene, effective);
   std::optional<PacketPieces> pieces = pieces_for_packets(frame);
+  const auto why_walked = no_search(scene, effective, pieces.has_value());
   frame.set_empty_space(find_empty_space(scene, effective, pieces.has_value(), plan));
   if (frame.empty_space()) pieces.reset();
   if (!why_walked)

@@ -17,6 +17,10 @@
 namespace plume {
 namespace {
 
+// Of a grid of 216,000 cells an isosurface takes packets as long as the search; of fewer, they are
+// faster. Of tetrahedra the search is, whatever their number: plume_frame_bench --hierarchy.
+constexpr std::size_t kFewestBesidePackets = 200000;
+
 // What is searched of a scene's form, and what of it a thread keeps.
 template <class Walkable>
 struct Searched {
@@ -166,7 +170,8 @@ class ExtremeTiles : public TileMaker {
 
 }  // namespace
 
-std::optional<std::string> no_search(const Scene& scene, const RenderSettings& settings) {
+std::optional<std::string> no_search(const Scene& scene, const RenderSettings& settings,
+                                     bool by_packets) {
   const Classification& classification = scene.classification();
   const bool extreme = settings.mode == Mode::maximum || settings.mode == Mode::minimum;
   if (!extreme && (!is_classified(scene, settings) || classification.isosurfaces.empty()))
@@ -185,6 +190,9 @@ std::optional<std::string> no_search(const Scene& scene, const RenderSettings& s
   const auto& channels = settings.channels;
   for (const char* name : {"optical_depth", "cell_count"})
     if (std::count(channels.begin(), channels.end(), name) > 0) return "a channel needs whole rays";
+  if (by_packets && std::string(scene.form()) != "tetrahedra" &&
+      scene.cell_count() < kFewestBesidePackets)
+    return "packets are faster through so few cells";
   return std::nullopt;
 }
 

@@ -1,9 +1,9 @@
 #include "plume/mesh/crooked_cell.h"
 
+#include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
-#include <span>
+#include <limits>
 
 #include "plume/mesh/cell_hierarchy.h"
 #include "plume/mesh/corner_cells.h"
@@ -24,27 +24,40 @@ Vector position_of(const WalkablePoint& point) {
   return {point.position[0], point.position[1], point.position[2]};
 }
 
-// Whether the plane through a point whose normal that is, times any length, leaves the origin
-// behind it, at a distance.
-bool faces_away(const Vector& normal, const Vector& point) {
-  const float height = dot(normal, point);
-  return height > 0 && height * height >= kLeastWidth * kLeastWidth * dot(normal, normal);
-}
+// Planes behind which the origin lies, each by a normal of any length and a point of it.
+class Planes {
+ public:
+  void add(const Vector& normal, const Vector& point) {
+    least_ = std::min(least_, dot(normal, point));
+    longest_ = std::max(longest_, dot(normal, normal));
+  }
+  // Whether the origin is behind all of them, at a distance.
+  bool face_away() const {
+    return least_ > 0 && least_ * least_ >= kLeastWidth * kLeastWidth * longest_;
+  }
+
+ private:
+  float least_ = std::numeric_limits<float>::infinity(), longest_ = 0;
+};
 
 bool triangle_faces_away(const Vector& a, const Vector& b, const Vector& c) {
-  return faces_away(cross(b - a, c - a), a);
+  Planes planes;
+  planes.add(cross(b - a, c - a), a);
+  return planes.face_away();
 }
 
-// Counterclockwise from outside; positions are relative to the middle of the cell.
+// Counterclockwise from outside; positions are relative to the middle of the cell. A bilinear
+// patch's normal P_u x P_v is bilinear in u and v, and so is its product with P: the quadratic
+// terms vanish, as P is P(0, v) + u P_u(v), and P(u, 0) + v P_v(u). So the corners say it for all
+// of it.
 bool quad_faces_away(const Vector& a, const Vector& b, const Vector& c, const Vector& d) {
-  const Vector along[2] = {b - a, c - d}, up[2] = {d - a, c - b};
-  bool away = true;
-  for (const Vector& u : along)
-    for (const Vector& v : up) {
-      const Vector normal = cross(u, v);
-      for (const Vector* corner : {&a, &b, &c, &d}) away = away && faces_away(normal, *corner);
-    }
-  return away;
+  const Vector ab = b - a, bc = c - b, dc = c - d, ad = d - a;
+  Planes planes;
+  planes.add(cross(ab, ad), a);
+  planes.add(cross(ab, bc), b);
+  planes.add(cross(dc, bc), c);
+  planes.add(cross(dc, ad), d);
+  return planes.face_away();
 }
 
 }  // namespace

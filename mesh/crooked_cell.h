@@ -13,8 +13,7 @@ namespace plume {
 /// kLeastWidth (cell_hierarchy.h). Such a surface is crossed by a line in and out in turns, and the
 /// i-th way in along a ray is before the i-th way out. Degenerate cells are crooked.
 ///
-/// A patch's tangents are between those of its opposite edges, and its points between its corners:
-/// so the signs of a few determinants say it.
+/// Of a bilinear patch its corners' tangent planes say it (crooked_cell.cpp).
 bool is_crooked(const WalkableGrid& mesh, std::uint32_t cell);
 bool is_crooked(const WalkableCells& mesh, std::uint32_t cell);
 

@@ -18,6 +18,7 @@
 #include "plume/traverse/cell_search.h"
 #include "plume/traverse/cluster_cache.h"
 #include "plume/traverse/face_search-inl.h"
+#include "plume/traverse/hexahedron_lanes-inl.h"
 #include "plume/traverse/ray_bundle.h"
 #include "plume/traverse/search_order-inl.h"
 #include "plume/traverse/tree_search-inl.h"
@@ -79,9 +80,12 @@ class ClusterSearch : public SearchOrder<Target> {
       const ShearedLanes lanes(bundle_, first_ray);
       for (; cells != 0; cells &= cells - 1) {
         const auto place = static_cast<std::uint32_t>(__builtin_ctz(cells));
-        std::uint32_t rays = BitsOf(
-            rays_of, hn::And(hn::Lt(hn::Set(rays_of, keys[place]), hn::Load(rays_of, limits)),
-                             lanes.Meets(leaf.low, leaf.high, place)));
+        const auto near = hn::Lt(hn::Set(rays_of, keys[place]), hn::Load(rays_of, limits));
+        const bool all = (crooked >> place & 1) != 0;
+        std::uint32_t rays =
+            BitsOf(rays_of, hn::And(near, (leaf.has_corners >> place & 1) != 0
+                                              ? MayGoThrough(lanes, leaf, place, all, limits)
+                                              : lanes.Meets(leaf.low, leaf.high, place)));
         for (; rays != 0; rays &= rays - 1)
           target_.go_through(first_ray + static_cast<std::size_t>(__builtin_ctz(rays)),
                              leaf.number[place]);
@@ -90,6 +94,43 @@ class ClusterSearch : public SearchOrder<Target> {
   }
 
  private:
+  // Of a cell with eight corners: rays that may cross its faces, and of these, where not `all` are
+  // asked for, those on whose way a scalar may be that matters.
+  HWY_INLINE ShearedLanes::M MayGoThrough(const ShearedLanes& lanes, const ReadCluster& leaf,
+                                          std::size_t place, bool all, const float* limits) const {
+    const ShearedLanes::D d;
+    const HexahedronLanes cell(lanes, leaf.position, place);
+    const auto none = hn::MaskFromVec(hn::Zero(d));
+    if (Target::kKey != CellKey::place || all) {
+      auto through = none;
+      for (std::size_t face = 0; face < 6; ++face) {
+        const float key = Target::kKey == CellKey::least ? leaf.face_least[face][place]
+                                                         : -leaf.face_greatest[face][place];
+        const auto crossed = cell.MayCross(face);
+        // All that a crooked cell has to say is wanted; else faces with a better value.
+        through =
+            hn::Or(through,
+                   all ? crossed : hn::And(crossed, hn::Lt(hn::Set(d, key), hn::Load(d, limits))));
+      }
+      return through;
+    }
+    auto matters = none;
+    ShearedLanes::M crossed[6] = {cell.MayCross(0), cell.MayCross(1), cell.MayCross(2),
+                                  cell.MayCross(3), cell.MayCross(4), cell.MayCross(5)};
+    for (const ScalarWindow& window : target_.windows()) {
+      // Between faces all of which are above a value, or below, nothing of it is on the way.
+      auto not_above = none, not_below = none;
+      for (std::size_t face = 0; face < 6; ++face) {
+        if (!(leaf.face_least[face][place] >= window.below))
+          not_above = hn::Or(not_above, crossed[face]);
+        if (!(leaf.face_greatest[face][place] < window.from))
+          not_below = hn::Or(not_below, crossed[face]);
+      }
+      matters = hn::Or(matters, hn::And(not_above, not_below));
+    }
+    return matters;
+  }
+
   using SearchOrder<Target>::bundle_;
   using SearchOrder<Target>::hull_;
   using SearchOrder<Target>::hulls_;

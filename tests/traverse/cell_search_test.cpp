@@ -16,6 +16,7 @@
 #include "plume/datasets/generate.h"
 #include "plume/mesh/boundary_clusters.h"
 #include "plume/mesh/leaf_cells.h"
+#include "plume/traverse/leaf_cache.h"
 #include "plume/traverse/packets.h"
 #include "traced.h"
 
