@@ -178,8 +178,12 @@ std::optional<std::string> no_search(const Scene& scene, const RenderSettings& s
     return "there is no isosurface to look for";
   if (!extreme && (classification.volume || !classification.intervals.empty()))
     return "all cells that are not empty are to be seen, not isosurfaces alone";
-  if (std::holds_alternative<std::unique_ptr<Walkable<RectilinearWalker>>>(scene.body().walkable))
+  const auto& form = scene.body().walkable;
+  if (std::holds_alternative<std::unique_ptr<Walkable<RectilinearWalker>>>(form))
     return "it is for cells between points, not between planes";
+  const auto* tets = std::get_if<std::unique_ptr<Walkable<TetWalker>>>(&form);
+  if (tets && (*tets)->mesh.is_compact())
+    return "compact tetrahedra are known only to who walks to them";
   if (scene.field().association == Association::cell) return "the scalar is constant in each cell";
   if (!is_linear(scene, settings)) return "the scalar is not linear along segments";
   if (!settings.clip_planes.empty()) return "clip planes cut rays";
@@ -190,8 +194,7 @@ std::optional<std::string> no_search(const Scene& scene, const RenderSettings& s
   const auto& channels = settings.channels;
   for (const char* name : {"optical_depth", "cell_count"})
     if (std::count(channels.begin(), channels.end(), name) > 0) return "a channel needs whole rays";
-  if (by_packets && std::string(scene.form()) != "tetrahedra" &&
-      scene.cell_count() < kFewestBesidePackets)
+  if (by_packets && !tets && scene.cell_count() < kFewestBesidePackets)
     return "packets are faster through so few cells";
   return std::nullopt;
 }

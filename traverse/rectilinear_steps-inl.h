@@ -261,7 +261,7 @@ void Walk(const WalkableRectilinear& mesh, Consumer& consumer, PacketFeeder& fee
   constexpr std::size_t kLargeMesh = 500000;  // values
   auto walk = [&]<bool kAhead>() {
     const RectilinearSteps<kAhead> steps(mesh);
-    PacketWalk<RectilinearSteps<kAhead>, kAhead ? kMaxPackets : kPackets, kAhead, Consumer>(
+    PacketWalk<RectilinearSteps<kAhead>, kAhead ? kLargePackets : kPackets, kAhead, Consumer>(
         steps, consumer, feeder)
         .run();
   };

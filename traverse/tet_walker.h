@@ -19,7 +19,8 @@ class TetWalker {
   using Mesh = WalkableTets;
   using Boundary = WalkableTets::Boundary;
 
-  TetWalker(const WalkableTets& mesh, const ShearedFrame& frame) : mesh_(mesh), frame_(frame) {}
+  TetWalker(const WalkableTets& mesh, const ShearedFrame& frame)
+      : mesh_(mesh), frame_(frame), is_compact_(mesh.is_compact()) {}
 
   /// The winding of a boundary face about the ray, seen from outside.
   int boundary_winding(const Boundary& face) const {
@@ -40,6 +41,7 @@ class TetWalker {
       right_[i] = crosses_right(corners_[(i + 1) % 3], corners_[(i + 2) % 3]);
     next_ = {face.cell, face.apex};
     cell_ = next_.cell;
+    previous_ = kNone;
   }
 
   std::uint32_t cell() const { return cell_; }
@@ -69,9 +71,11 @@ class TetWalker {
     corners_[out] = apex;
     right_[(out + 1) % 3] = to_apex[(out + 2) % 3];
     right_[(out + 2) % 3] = to_apex[(out + 1) % 3];
-    std::size_t rank = 0;
-    for (const Corner& corner : corners_) rank += corner.id < behind ? 1 : 0;
-    next_ = mesh_.cells[cell_][rank];
+    const std::size_t way_out = rank(behind);
+    if (is_compact_)
+      decide_compact(way_out, rank(apex.id) + (behind < apex.id ? 1 : 0));
+    else
+      next_ = mesh_.cells[cell_][way_out];
   }
 
   /// The same, and where the ray crosses that face.
@@ -82,6 +86,7 @@ class TetWalker {
 
   /// Into the cell behind the face left through; false at the boundary.
   bool advance() {
+    previous_ = cell_;
     cell_ = next_.cell;
     return cell_ != kNone;
   }
@@ -91,6 +96,20 @@ class TetWalker {
     std::uint32_t id;
     ShearedPoint at;
   };
+
+  /// How many of the corners' numbers are below this one.
+  std::size_t rank(std::uint32_t id) const {
+    std::size_t below = 0;
+    for (const Corner& corner : corners_) below += corner.id < id ? 1 : 0;
+    return below;
+  }
+
+  void decide_compact(std::size_t out, std::size_t in) {
+    next_ = {mesh_.compact_cells[cell_].neighbor(out, in, previous_), 0};
+    if (next_.cell == kNone) return;
+    next_.apex =
+        mesh_.compact_cells[next_.cell].apex(corners_[0].id ^ corners_[1].id ^ corners_[2].id);
+  }
 
   static bool crosses_right(const Corner& a, const Corner& b) { return crossing(a.at, b.at) != 0; }
 
@@ -114,7 +133,8 @@ class TetWalker {
 
   const WalkableTets& mesh_;
   const ShearedFrame& frame_;
-  std::uint32_t cell_ = kNone;
+  const bool is_compact_;
+  std::uint32_t cell_ = kNone, previous_ = kNone;
   WalkableTets::Link next_{kNone, 0};
   // The triangle by which the ray came into the cell, and whether the edges across from its corners
   // cross y = 0 on the ray's right.
