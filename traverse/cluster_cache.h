@@ -46,11 +46,10 @@ struct ReadCluster {
     for (std::size_t c = 0; c < 8; ++c)
       for (std::size_t a = 0; a < 3; ++a) position[a][c][place] = corners[c]->position[a];
     for (std::size_t f = 0; f < 6; ++f) {
-      float low = Cluster::kInfinity, high = -Cluster::kInfinity;
-      for (const std::uint8_t c : kCornerLoop[f]) take(corners[c]->scalar, low, high);
-      CellClusters::widen(low, high);
-      face_least[f][place] = low;
-      face_greatest[f][place] = high;
+      float& from = face_least[f][place] = Cluster::kInfinity;
+      float& to = face_greatest[f][place] = -Cluster::kInfinity;
+      for (const std::uint8_t c : kCornerLoop[f]) take(corners[c]->scalar, from, to);
+      CellClusters::widen(from, to);
     }
   }
 
