@@ -16,7 +16,8 @@ namespace plume {
 namespace {
 
 bool has_hierarchy(const Scene& scene) {
-  return scene.body().hierarchy.made() || scene.body().ranges.made();
+  return scene.body().hierarchy.made() || scene.body().clusters.made() ||
+         scene.body().ranges.made();
 }
 
 // On the threads of the arena that it is called in.
@@ -45,20 +46,20 @@ RenderResult render_here(const Scene& scene, const Camera& camera, const RenderS
   plan = describe_plan(scene, effective);
   plan.insert(plan.begin(), reasons.begin(), reasons.end());
   const bool had_hierarchy = has_hierarchy(scene);
-  const auto why_walked = no_search(scene, effective);
   std::optional<PacketPieces> pieces = pieces_for_packets(frame);
   // Numbers in single precision, where that is no more than a share of what was asked for.
   const bool single_will_do = !settings.tolerance || mode_packet_error(scene, effective.mode) <=
                                                          settings.tolerance->max_error / 4;
   bool by_packets = pieces || (single_will_do && has_mode_packets(frame));
+  const auto why_walked = no_search(scene, effective, by_packets);
   frame.set_empty_space(find_empty_space(scene, effective, by_packets, plan));
   by_packets = by_packets && !frame.empty_space();
   if (!why_walked)
-    plan.push_back(fmt::format(
-        "rays: through a hierarchy of cells ({}), as only {}",
-        scene.body().hierarchy.made() ? "made before" : "made for this picture",
-        is_classified(scene, settings) ? "isosurfaces are to be seen"
-                                       : "cells with a greater or lesser scalar need a look"));
+    plan.push_back(fmt::format("rays: through a hierarchy of cells ({}), as only {}",
+                               had_hierarchy ? "made before" : "made for this picture",
+                               is_classified(scene, settings)
+                                   ? "isosurfaces are to be seen"
+                                   : "cells with a greater or lesser scalar need a look"));
   else if (has_packets(scene) && !frame.empty_space())
     plan.push_back(
         by_packets ? fmt::format("rays: in packets, {}", packet_instruction_set())

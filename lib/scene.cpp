@@ -213,6 +213,7 @@ void Scene::set_field(const Mesh& mesh, const FieldRequest& request) {
   body.unit_distance.reset();
   body.plans.scene_changed();
   body.hierarchy.reset();
+  body.clusters.reset();
   body.ranges.reset();
   take_words(body, read);
   std::visit(

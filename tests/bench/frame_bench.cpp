@@ -26,12 +26,12 @@ constexpr const char* kHelp = R"(plume_frame_bench: whole frames, from the rays 
                    split in data space against the paper's tables
   --tolerance      what is asked for, what the planner chooses, and what that comes to, in all modes
   --hierarchy      an opaque isosurface through the hierarchy of cells against walking to it, of
-                   10 million tetrahedra: only where it is asked for
+                   10 million tetrahedra, hexahedra and mixed cells: only where it is asked for
   --empty-space    passing over what is not seen of a rectilinear grid against walking through it:
                    only where it is asked for
                    all but these two where none is asked for
   --rounds=N       how many frames each (5, with two threads 7); medians are reported
-  --cells=N        of the hierarchy's box (118) and of the rectilinear grid (256), along each side
+  --cells=N        of the hierarchy's boxes (118) and of the rectilinear grid (256), along each side
   --size=N         pixels along each side (512, with two threads 1024)
   --pictures=DIR   writes the pictures that are compared with VTK's, as PNG files
 The blunt fin is read from the directory PLUME_DATASETS, by default ../shared/datasets.
