@@ -25,10 +25,16 @@ RenderResult render_here(const Scene& scene, const Camera& camera, const RenderS
                          const Progress& progress) {
   RenderResult result;
   std::vector<std::string> reasons;
-  const tbb::tick_count start = tbb::tick_count::now();
-  RenderSettings effective =
-      settings.tolerance ? plan_for(scene, camera, settings, reasons) : settings;
-  result.statistics.seconds_planning = (tbb::tick_count::now() - start).seconds();
+  RenderSettings effective = settings;
+  if (settings.tolerance) {
+    const tbb::tick_count start = tbb::tick_count::now();
+    Plan planned = scene.body().plans.get(scene, camera, settings);
+    result.statistics.seconds_planning = (tbb::tick_count::now() - start).seconds();
+    result.statistics.error_estimate = planned.error;
+    result.statistics.keeps_tolerance = planned.keeps;
+    effective = std::move(planned.settings);
+    reasons = std::move(planned.reasons);
+  }
   result.statistics.order = effective.order;
   Frame frame(scene, camera, effective);
   frame.set_opaque(find_opaque_pixels(frame));
