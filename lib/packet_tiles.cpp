@@ -110,7 +110,7 @@ bool has_packets(const Scene& scene) {
       [](const auto& walkable) {
         using Walker = typename std::decay_t<decltype(*walkable)>::Walker;
         if constexpr (std::is_same_v<Walker, CellWalker>)
-          return !walkable->mesh.corner_cells.empty();
+          return walkable->mesh.has_packets();
         if constexpr (std::is_same_v<Walker, RectilinearWalker>)
           return walked_by_packets(walkable->mesh);
         return true;

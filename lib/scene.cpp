@@ -183,7 +183,7 @@ Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_un
         make_walkable_tets(mesh, field, frame_bounds, keep_cells, keep_points)));
   else {
     WalkableCells cells = make_walkable_cells(mesh, field, frame_bounds, keep_cells, keep_points);
-    cells.corner_cells = make_corner_cells(cells);
+    prepare_packets(cells);
     take(std::make_unique<Walkable<CellWalker>>(std::move(cells)));
   }
   read.field.values = {};

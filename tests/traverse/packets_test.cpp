@@ -187,7 +187,7 @@ TEST(GridPackets, WalkAsFewRaysAsOne) {
 
 WalkableCells cells_of(const Mesh& mesh) {
   WalkableCells cells = make_walkable_cells(mesh, select_field(mesh), check_structure(mesh), false);
-  cells.corner_cells = make_corner_cells(cells);
+  prepare_packets(cells);
   return cells;
 }
 
