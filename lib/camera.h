@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,8 @@ void orbit(Camera& camera, double azimuth, double elevation);
 /// vtkCamera's Zoom. Throws Error unless factor > 0.
 void zoom(Camera& camera, double factor);
 
+struct RayLanes;
+
 /// The rays of a picture's pixels.
 class PixelRays {
  public:
@@ -56,6 +59,10 @@ class PixelRays {
   /// The ray through the place (x, y), in pixels from the top left corner; the centre of pixel
   /// (0, 0) is (0.5, 0.5). Its direction has length one.
   Ray operator()(double x, double y) const;
+
+  /// Those of sixteen places, to the bit, of which the first `size` count.
+  void set(RayLanes& rays, const std::array<double, 16>& x, const std::array<double, 16>& y,
+           std::size_t size) const;
 
  private:
   Camera camera_;

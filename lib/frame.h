@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,6 +16,7 @@
 #include "plume/lib/opaque_pixels.h"
 #include "plume/lib/render.h"
 #include "plume/preint/optical_depth.h"
+#include "plume/traverse/frame_lanes.h"
 
 namespace plume {
 
@@ -89,6 +91,15 @@ class Frame {
     Ray ray = rays_(window_.x + pixel.x + 0.5, window_.y + pixel.y + 0.5);
     if (opaque_.any()) ray.t_max = opaque_.limits[pixel.index];
     return ray;
+  }
+  /// Those of up to sixteen pixels that see endlessly, to the bit.
+  void rays(std::span<const PixelPlace> pixels, RayLanes& rays) const {
+    std::array<double, RayLanes::kRays> x{}, y{};
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      x[i] = window_.x + pixels[i].x + 0.5;
+      y[i] = window_.y + pixels[i].y + 0.5;
+    }
+    rays_.set(rays, x, y, pixels.size());
   }
   /// Whether nothing opaque ends the pixel's ray.
   bool sees_endlessly(const PixelPlace& pixel) const {

@@ -2,6 +2,32 @@
 
 namespace plume {
 
+template <class Walker>
+void PacketTile<Walker>::clear() {
+  size_ = 0;
+  places_.clear();
+}
+
+template <class Walker>
+void PacketTile<Walker>::add(const RayLanes& rays) {
+  frames_.set(rays, mesh_.frame);
+  boundary_.first_entries(frames_, found_);
+  for (std::size_t i = 0; i < rays.size; ++i) {
+    if (found_[i].size == 0) {
+      places_.push_back(kMisses);
+      continue;
+    }
+    places_.push_back(static_cast<std::uint32_t>(size_));
+    if (size_ == rays_.size()) rays_.emplace_back();
+    TileRay& added = rays_[size_++];
+    added.ray = rays.ray(i);
+    added.frame = frames_.frame(i);
+    added.all_entries.list() = found_[i];
+    added.entries = 0;
+    added.declined = added.waiting = false;
+  }
+}
+
 // Sets up a ray's next passage. False where it has none, or none for packets.
 template <class Walker>
 bool PacketTile<Walker>::prepare(std::size_t index, const std::optional<Entry>& entry,
@@ -23,39 +49,6 @@ bool PacketTile<Walker>::prepare(std::size_t index, const std::optional<Entry>& 
             static_cast<std::uint32_t>(index));
   ++ray.entries;
   return true;
-}
-
-template <class Walker>
-void PacketTile<Walker>::add(const Ray& ray) {
-  if (size_ == rays_.size()) rays_.emplace_back();
-  TileRay& added = rays_[size_++];
-  added.entries = 0;
-  added.declined = added.waiting = false;
-  added.all_entries.list().clear();
-  added.valid = added.frame.set(ray, mesh_.frame);
-  added.ray = ray;
-}
-
-template <class Walker>
-void PacketTile<Walker>::find_first_entries() {
-  frames_.clear();
-  found_.clear();
-  for (std::size_t index = 0; index < size_; ++index) {
-    TileRay& ray = rays_[index];
-    if (!ray.valid) continue;
-    frames_.push_back(&ray.frame);
-    found_.push_back(&ray.all_entries.list());
-  }
-  boundary_.first_entries(frames_, found_);
-  for (std::size_t index = 0; index < size_; ++index) {
-    TileRay& ray = rays_[index];
-    const auto entry = ray.all_entries.first();
-    if (!entry) continue;
-    if (ray.frame.t(entry->place.z) < ray.ray.t_min)
-      ray.declined = true;
-    else
-      ray.waiting = prepare(index, entry, entry->place.z);
-  }
 }
 
 // Rays of one axis; one that has left is let in again where there is another entry.
@@ -96,11 +89,29 @@ void PacketTile<Walker>::composite(PacketOptics optics) {
   visits_.assign(optics.classified != nullptr ? size_ : 0, PacketVisit{});
   optics.colors = colors_;
   if (optics.classified != nullptr) optics.classified->visits = visits_;
-  find_first_entries();
+  for (std::size_t index = 0; index < size_; ++index) {
+    TileRay& ray = rays_[index];
+    const auto entry = ray.all_entries.first();
+    if (ray.frame.t(entry->place.z) < ray.ray.t_min)
+      ray.declined = true;
+    else
+      ray.waiting = prepare(index, entry, entry->place.z);
+  }
   for (int axis = 0; axis < 3; ++axis) {
     Feeder feeder(*this, axis);
     composite_packets(mesh_, optics, axis, feeder);
   }
+}
+
+template <class Walker>
+PacketResult PacketTile<Walker>::result(std::size_t number) const {
+  const std::uint32_t place = places_[number];
+  const PacketColor& color = colors_[place];
+  const TileRay& ray = rays_[place];
+  return {color,
+          {ray.entries > 0 && color.opaque ? WalkEnd::stopped : WalkEnd::left, ray.entries,
+           color.cells},
+          ray.declined};
 }
 
 template class PacketTile<TetWalker>;

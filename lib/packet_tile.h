@@ -20,7 +20,7 @@ struct PacketResult {
   bool declined = false;
 };
 
-/// Rays of a tile: added one by one, then composited together. Reused from tile to tile.
+/// Rays of a tile: added sixteen by sixteen, then composited together. Reused from tile to tile.
 ///
 /// Packets walk a ray from entry to entry, each passage whole. A ray that starts inside of the
 /// mesh, or one of whose passages begins before the last one ended (parts that overlap), needs its
@@ -36,47 +36,48 @@ class PacketTile {
   PacketTile(const Mesh& mesh, const BoundaryIndex<Walker>& boundary, double gap)
       : mesh_(mesh), boundary_(boundary), gap_(gap) {}
 
-  void clear() { size_ = 0; }
-  void add(const Ray& ray);
-  /// What the optics keep of each ray is the tile's.
+  void clear();
+  /// Rays that see from their origin to infinity.
+  void add(const RayLanes& rays);
+  /// What the optics keep of each ray is the tile's. They number rays that meet the mesh, which is
+  /// what ray() and distance() expect.
   void composite(PacketOptics optics);
 
-  const Ray& ray(std::size_t index) const { return rays_[index].ray; }
+  Ray ray(std::size_t index) const { return rays_[index].ray; }
   /// Of a place in the mesh's local frame, along the ray, in world units.
   double distance(std::size_t index, float z) const { return rays_[index].frame.t(z); }
 
-  PacketResult result(std::size_t ray) const {
-    return {colors_[ray],
-            {rays_[ray].entries > 0 && colors_[ray].opaque ? WalkEnd::stopped : WalkEnd::left,
-             rays_[ray].entries, colors_[ray].cells},
-            rays_[ray].declined};
-  }
+  /// Whether a ray meets the mesh; rays are counted in the order in which they were added.
+  bool meets(std::size_t number) const { return places_[number] != kMisses; }
+  /// Of one that does.
+  PacketResult result(std::size_t number) const;
 
  private:
+  // One that meets the mesh.
   struct TileRay {
     Ray ray;
     ShearedFrame frame;
-    bool valid = false;  // has a direction
     Entries<Walker> all_entries;
     StartOf<Mesh> start;
     std::uint32_t entries = 0;
     bool declined = false;
     bool waiting = false;  // has an entry that was not walked yet
   };
+  static constexpr std::uint32_t kMisses = ~std::uint32_t{0};
   class Feeder;
 
-  void find_first_entries();
-  bool prepare(std::size_t ray, const std::optional<Entry>& entry, double seen_until);
+  bool prepare(std::size_t index, const std::optional<Entry>& entry, double seen_until);
 
   const Mesh& mesh_;
   const BoundaryIndex<Walker>& boundary_;
   const double gap_;
+  std::vector<std::uint32_t> places_;  // in rays_, of all that were added
   std::vector<TileRay> rays_;  // the first size_ of them: what there is is used again as it is
   std::size_t size_ = 0;
   std::vector<PacketColor> colors_;
   std::vector<PacketVisit> visits_;  // none for a volume alone
-  std::vector<const ShearedFrame*> frames_;
-  std::vector<EntryList*> found_;
+  FrameLanes frames_;
+  std::array<EntryList, FrameLanes::kRays> found_;
 };
 
 extern template class PacketTile<TetWalker>;

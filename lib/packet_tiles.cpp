@@ -1,5 +1,6 @@
 #include <tbb/enumerable_thread_specific.h>
 
+#include <array>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -52,23 +53,34 @@ class PacketTiles : public TileMaker {
     auto& packets = packets_.local();
     packets.clear();
     // Packets walk whole passages: rays that end inside are walked one by one.
+    std::array<PixelPlace, RayLanes::kRays> pixels;
+    std::size_t size = 0;
+    RayLanes rays;
+    auto add = [&] {
+      frame_.rays({pixels.data(), size}, rays);
+      packets.add(rays);
+      size = 0;
+    };
     frame_.for_each_pixel(tile, [&](const PixelPlace& pixel) {
-      if (frame_.sees_endlessly(pixel))
-        packets.add(frame_.ray(pixel));
-      else
-        twin_.make_pixel(pixel, counts);
+      if (!frame_.sees_endlessly(pixel)) return twin_.make_pixel(pixel, counts);
+      pixels[size++] = pixel;
+      if (size == pixels.size()) add();
     });
+    if (size > 0) add();
     composite(packets, counts);
     std::size_t ray = 0;
     frame_.for_each_pixel(tile, [&](const PixelPlace& pixel) {
       if (!frame_.sees_endlessly(pixel)) return;
-      const PacketResult result = packets.result(ray++);
+      const std::size_t number = ray++;
+      ++counts.in_packets;
+      if (!packets.meets(number)) return;  // pixels are empty from the start
+      const PacketResult result = packets.result(number);
       if (result.declined) {
+        --counts.in_packets;
         twin_.make_pixel(pixel, counts);
         return;
       }
       counts.add(result.trace);
-      ++counts.in_packets;
       float* rgba = frame_.rgba(pixel);
       rgba[0] = result.color.r;
       rgba[1] = result.color.g;

@@ -22,12 +22,16 @@ class PacketTile<RectilinearWalker> {
       : mesh_(mesh), lanes_(mesh) {}
 
   void clear() { rays_.clear(); }
-  void add(const Ray& ray) { rays_.push_back({ray}); }
+  /// Rays that see from their origin to infinity.
+  void add(const RayLanes& rays) {
+    for (std::size_t i = 0; i < rays.size; ++i) rays_.push_back({rays.ray(i)});
+  }
   void composite(PacketOptics optics);
 
   const Ray& ray(std::size_t index) const { return rays_[index].ray; }
   /// Of a place on the ray, `z` from where it comes in.
   double distance(std::size_t index, float z) const { return rays_[index].t_in + z; }
+  bool meets(std::size_t ray) const { return rays_[ray].answer != RectilinearRay::misses; }
   PacketResult result(std::size_t ray) const;
 
  private:

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <optional>
+#include <span>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -12,7 +14,7 @@
 #include <vector>
 
 #include "plume/mesh/error.h"
-#include "plume/traverse/line_packet.h"
+#include "plume/traverse/frame_lanes.h"
 
 namespace plume {
 namespace {
@@ -23,40 +25,51 @@ namespace {
 // is 2^-17. Wider boxes cost time, never a decision.
 constexpr float kMargin = 7.62939453125e-06f;
 
-// The loop of a face, seen from outside.
-void face_points(const WalkableTets&, const WalkableTets::Boundary& face,
-                 std::vector<std::uint32_t>& ids) {
-  ids.assign(face.loop.begin(), face.loop.end());
+using FaceCorners = std::span<const WalkablePoint* const>;
+
+// visit(FaceCorners) for the loop of a face, seen from outside.
+template <class Visit>
+auto with_corners(const WalkableTets& mesh, const WalkableTets::Boundary& face,
+                  const Visit& visit) {
+  std::array<const WalkablePoint*, 3> corners;
+  for (std::size_t c = 0; c < 3; ++c) corners[c] = &mesh.points[face.loop[c]];
+  return visit(FaceCorners(corners));
 }
 
-void face_points(const WalkableGrid& mesh, BoundaryFace face, std::vector<std::uint32_t>& ids) {
+template <class Visit>
+auto with_corners(const WalkableGrid& mesh, BoundaryFace face, const Visit& visit) {
   const std::uint32_t step[3] = {1, mesh.dimensions[0], mesh.dimensions[0] * mesh.dimensions[1]};
   const std::uint32_t axis = face.face / 2;
   const std::uint32_t base = mesh.first_point(face.cell) + (face.face % 2) * step[axis];
   std::uint32_t a = step[(axis + 1) % 3], b = step[(axis + 2) % 3];
   if ((face.face % 2 == 1) == mesh.left_handed) std::swap(a, b);
-  for (const std::uint32_t id : {base, base + a, base + a + b, base + b}) ids.push_back(id);
+  const WalkablePoint* const first = &mesh.points[base];
+  const std::array<const WalkablePoint*, 4> corners{first, first + a, first + a + b, first + b};
+  return visit(FaceCorners(corners));
 }
 
-void face_points(const WalkableCells& mesh, BoundaryFace face, std::vector<std::uint32_t>& ids) {
+template <class Visit>
+auto with_corners(const WalkableCells& mesh, BoundaryFace face, const Visit& visit) {
+  thread_local std::vector<const WalkablePoint*> corners;
   const auto loop = mesh.loop(face.face);
-  ids.assign(loop.begin(), loop.end());
+  corners.resize(loop.size());
+  for (std::size_t c = 0; c < loop.size(); ++c) corners[c] = &mesh.points[loop[c]];
+  return visit(FaceCorners(corners));
 }
 
 template <class Mesh>
 void face_bounds(const RTCBoundsFunctionArguments* args) {
   const Mesh& mesh = *static_cast<const Mesh*>(args->geometryUserPtr);
-  thread_local std::vector<std::uint32_t> ids;
-  ids.clear();
-  face_points(mesh, mesh.boundary[args->primID], ids);
   std::array<float, 3> low, high;
   low.fill(std::numeric_limits<float>::infinity());
   high.fill(-std::numeric_limits<float>::infinity());
-  for (const std::uint32_t id : ids)
-    for (std::size_t a = 0; a < 3; ++a) {
-      low[a] = std::min(low[a], mesh.points[id].position[a]);
-      high[a] = std::max(high[a], mesh.points[id].position[a]);
-    }
+  with_corners(mesh, mesh.boundary[args->primID], [&](FaceCorners corners) {
+    for (const WalkablePoint* const corner : corners)
+      for (std::size_t a = 0; a < 3; ++a) {
+        low[a] = std::min(low[a], corner->position[a]);
+        high[a] = std::max(high[a], corner->position[a]);
+      }
+  });
   RTCBounds& box = *args->bounds_o;
   box.lower_x = low[0] - kMargin;
   box.lower_y = low[1] - kMargin;
@@ -66,7 +79,7 @@ void face_bounds(const RTCBoundsFunctionArguments* args) {
   box.upper_z = high[2] + kMargin;
 }
 
-// What a ray of a query carries through Embree; rays know theirs by their id.
+// A ray of a query.
 template <class Walker>
 struct QueryRay {
   const Walker* walker = nullptr;
@@ -75,11 +88,34 @@ struct QueryRay {
   EntryList* found = nullptr;
 };
 
+// Sixteen rays; each is made when a face asks for it first.
+template <class Walker>
+class SixteenRays {
+ public:
+  SixteenRays(const FrameLanes& lanes, std::span<EntryList, FrameLanes::kRays> found)
+      : lanes_(lanes), found_(found) {}
+
+  const FrameLanes& lanes() const { return lanes_; }
+  QueryRay<Walker> ray(const typename Walker::Mesh& mesh, std::size_t number) {
+    auto& frame = frames_[number];
+    auto& walker = walkers_[number];
+    if (!frame) walker.emplace(mesh, frame.emplace(lanes_.frame(number)));
+    return {&*walker, &*frame, nullptr, &found_[number]};
+  }
+
+ private:
+  const FrameLanes& lanes_;
+  const std::span<EntryList, FrameLanes::kRays> found_;
+  std::array<std::optional<ShearedFrame>, FrameLanes::kRays> frames_;
+  std::array<std::optional<Walker>, FrameLanes::kRays> walkers_;
+};
+
+// One ray, or sixteen, which know their number by their id.
 template <class Walker>
 struct Query {
   RTCIntersectContext context;  // first: Embree hands it back, and so the whole
-  const QueryRay<Walker>* rays;
-  const LinePacket* lines;  // of those rays; null for a single one
+  QueryRay<Walker> one;
+  SixteenRays<Walker>* sixteen;
 };
 
 bool before(const Entry& a, const Entry& b, int sign) {
@@ -115,26 +151,20 @@ void for_each_way_in(const Walker& walker, const typename Walker::Boundary& face
 
 template <class Walker>
 void face_intersect(const RTCIntersectFunctionNArguments* args) {
-  const auto& query = *reinterpret_cast<const Query<Walker>*>(args->context);
+  auto& query = *reinterpret_cast<Query<Walker>*>(args->context);
   const auto& mesh = *static_cast<const typename Walker::Mesh*>(args->geometryUserPtr);
   const auto& face = mesh.boundary[args->primID];
   RTCRayN* const rays = RTCRayHitN_RayN(args->rayhit, args->N);
   RTCHitN* const hits = RTCRayHitN_HitN(args->rayhit, args->N);
   unsigned candidates = 0xFFFFu;
-  if (query.lines != nullptr && args->N == LinePacket::kRays) {
-    thread_local std::vector<std::uint32_t> ids;
-    thread_local std::vector<const WalkablePoint*> corners;
-    ids.clear();
-    face_points(mesh, face, ids);
-    corners.resize(ids.size());
-    for (std::size_t c = 0; c < ids.size(); ++c) corners[c] = &mesh.points[ids[c]];
-    candidates = query.lines->may_enter(corners);
-  }
+  if (query.sixteen != nullptr)
+    candidates = with_corners(
+        mesh, face, [&](FaceCorners corners) { return query.sixteen->lanes().may_enter(corners); });
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
     const unsigned id = RTCRayN_id(rays, args->N, i);
     if ((candidates >> id & 1) == 0) continue;
-    const QueryRay<Walker>& ray = query.rays[id];
+    const QueryRay<Walker> ray = query.sixteen ? query.sixteen->ray(mesh, id) : query.one;
     const int sign = ray.frame->sign();
     EntryList& list = *ray.found;
     bool found = false;
@@ -208,10 +238,8 @@ template <class Walker>
 EntryList BoundaryIndex<Walker>::next_entries(const Walker& walker, const ShearedFrame& frame,
                                               const Entry* previous) const {
   EntryList found;
-  const QueryRay<Walker> ray{&walker, &frame, previous, &found};
-  Query<Walker> query{};
+  Query<Walker> query{{}, {&walker, &frame, previous, &found}, nullptr};
   rtcInitIntersectContext(&query.context);
-  query.rays = &ray;
   RTCRayHit rayhit{};
   const auto start = frame.start();
   const auto step = frame.step();
@@ -231,45 +259,27 @@ EntryList BoundaryIndex<Walker>::next_entries(const Walker& walker, const Sheare
 }
 
 template <class Walker>
-void BoundaryIndex<Walker>::first_entries(std::span<const ShearedFrame* const> frames,
-                                          std::span<EntryList* const> found) const {
-  constexpr std::size_t kRays = LinePacket::kRays;
-  std::vector<Walker> walkers;
-  walkers.reserve(kRays);
-  for (std::size_t begin = 0; begin < frames.size(); begin += kRays) {
-    const std::size_t size = std::min(kRays, frames.size() - begin);
-    walkers.clear();
-    std::array<QueryRay<Walker>, kRays> rays;
-    LinePacket lines;
-    alignas(64) std::array<int, kRays> valid{};
-    RTCRayHit16 packet{};  // aligned to 64 bytes by its type
-    for (std::size_t i = 0; i < size; ++i) {
-      const ShearedFrame& frame = *frames[begin + i];
-      walkers.emplace_back(*mesh_, frame);
-      found[begin + i]->clear();
-      rays[i] = {&walkers.back(), &frame, nullptr, found[begin + i]};
-      lines.set(i, frame);
-      valid[i] = -1;
-      const auto start = frame.start();
-      const auto step = frame.step();
-      packet.ray.org_x[i] = start[0];
-      packet.ray.org_y[i] = start[1];
-      packet.ray.org_z[i] = start[2];
-      packet.ray.dir_x[i] = step[0];
-      packet.ray.dir_y[i] = step[1];
-      packet.ray.dir_z[i] = step[2];
-      packet.ray.tfar[i] = std::numeric_limits<float>::infinity();
-      packet.ray.mask[i] = 0xFFFFFFFFu;
-      packet.ray.id[i] = static_cast<unsigned>(i);
-      packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
-    }
-    Query<Walker> query{};
-    rtcInitIntersectContext(&query.context);
-    query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    query.rays = rays.data();
-    query.lines = &lines;
-    rtcIntersect16(valid.data(), implementation_->scene.get(), &query.context, &packet);
+void BoundaryIndex<Walker>::first_entries(const FrameLanes& frames,
+                                          std::span<EntryList, FrameLanes::kRays> found) const {
+  SixteenRays<Walker> sixteen(frames, found);
+  alignas(64) std::array<int, FrameLanes::kRays> valid;
+  RTCRayHit16 packet;  // aligned to 64 bytes by its type
+  RTCRay16& ray = packet.ray;
+  frames.lines({ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z});
+  for (std::size_t i = 0; i < FrameLanes::kRays; ++i) {
+    found[i].clear();
+    valid[i] = frames.is_valid(i) ? -1 : 0;
+    ray.tnear[i] = ray.time[i] = 0;
+    ray.tfar[i] = std::numeric_limits<float>::infinity();
+    ray.mask[i] = 0xFFFFFFFFu;
+    ray.id[i] = static_cast<unsigned>(i);
+    ray.flags[i] = 0;
+    packet.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
   }
+  Query<Walker> query{{}, {}, &sixteen};
+  rtcInitIntersectContext(&query.context);
+  query.context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid.data(), implementation_->scene.get(), &query.context, &packet);
 }
 
 template class BoundaryIndex<TetWalker>;

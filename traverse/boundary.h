@@ -8,6 +8,7 @@
 #include <span>
 
 #include "plume/traverse/cell_walker.h"
+#include "plume/traverse/frame_lanes.h"
 #include "plume/traverse/grid_walker.h"
 #include "plume/traverse/tet_walker.h"
 
@@ -56,10 +57,9 @@ class BoundaryIndex {
   EntryList next_entries(const Walker& walker, const ShearedFrame& frame,
                          const Entry* previous = nullptr) const;
 
-  /// The first entries of many rays, in packets: faster where neighbours in the list are near each
-  /// other in space. `frames` and `found` have the same size.
-  void first_entries(std::span<const ShearedFrame* const> frames,
-                     std::span<EntryList* const> found) const;
+  /// The first entries of sixteen rays together: faster where they are near each other in space.
+  /// None for what is no valid ray.
+  void first_entries(const FrameLanes& frames, std::span<EntryList, FrameLanes::kRays> found) const;
 
  private:
   struct Implementation;

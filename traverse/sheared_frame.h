@@ -66,18 +66,14 @@ class ShearedFrame {
     const auto& d = ray.direction;
     const int major = longest_axis(d);
     if (!(std::abs(d[index(major)]) > 0)) return false;
-    // A cyclic permutation keeps the handedness.
-    x_ = index((major + 1) % 3);
-    y_ = index((major + 2) % 3);
-    z_ = index(major);
+    set_axis(major, d[index(major)] > 0 ? 1 : -1);
     // Zero times what is not finite is no number.
     const auto& o = ray.origin;
     if (!(0 * d[0] + 0 * d[1] + 0 * d[2] + 0 * o[0] + 0 * o[1] + 0 * o[2] == 0)) return false;
-    sign_ = d[z_] > 0 ? 1 : -1;
     const double per_z = 1 / d[z_];
     if (!std::isfinite(per_z)) return false;
-    slope_x_ = static_cast<float>(d[x_] * per_z);
-    slope_y_ = static_cast<float>(d[y_] * per_z);
+    line_.slope_x = static_cast<float>(d[x_] * per_z);
+    line_.slope_y = static_cast<float>(d[y_] * per_z);
 
     // The ray's point nearest to the centre of the mesh stands for its origin, so that a camera
     // far away costs no precision.
@@ -88,8 +84,11 @@ class ShearedFrame {
     std::array<double, 3> anchor;
     for (std::size_t a = 0; a < 3; ++a)
       anchor[a] = ((ray.origin[a] - local.center[a]) + along * d[a]) * local.scale;
-    offset_x_ = static_cast<float>(anchor[x_] - static_cast<double>(slope_x_) * anchor[z_]);
-    offset_y_ = static_cast<float>(anchor[y_] - static_cast<double>(slope_y_) * anchor[z_]);
+    auto offset = [&](double place, float slope) {
+      return static_cast<float>(place - static_cast<double>(slope) * anchor[z_]);
+    };
+    line_.offset_x = offset(anchor[x_], line_.slope_x);
+    line_.offset_y = offset(anchor[y_], line_.slope_y);
     t_per_z_ = per_z / local.scale;  // a power of two
     t_offset_ = along - anchor[z_] * t_per_z_;
     return true;
@@ -97,8 +96,8 @@ class ShearedFrame {
 
   ShearedPoint operator()(const WalkablePoint& p) const {
     const float z = p.position[z_];
-    return {(p.position[x_] - offset_x_) - slope_x_ * z,
-            (p.position[y_] - offset_y_) - slope_y_ * z, z, p.scalar};
+    return {(p.position[x_] - line_.offset_x) - line_.slope_x * z,
+            (p.position[y_] - line_.offset_y) - line_.slope_y * z, z, p.scalar};
   }
 
   /// Distance along the ray, in world units, of a place at this z.
@@ -107,8 +106,8 @@ class ShearedFrame {
   /// The ray's place at this z, in local coordinates: where the shear has x = y = 0.
   std::array<double, 3> local(double z) const {
     std::array<double, 3> p;
-    p[x_] = offset_x_ + static_cast<double>(slope_x_) * z;
-    p[y_] = offset_y_ + static_cast<double>(slope_y_) * z;
+    p[x_] = line_.offset_x + static_cast<double>(line_.slope_x) * z;
+    p[y_] = line_.offset_y + static_cast<double>(line_.slope_y) * z;
     p[z_] = z;
     return p;
   }
@@ -125,23 +124,32 @@ class ShearedFrame {
   struct Line {
     float slope_x = 0, slope_y = 0, offset_x = 0, offset_y = 0;
   };
-  Line line() const { return {slope_x_, slope_y_, offset_x_, offset_y_}; }
+  const Line& line() const { return line_; }
 
   /// The ray's line for a ray tracer, in local coordinates: a point outside of the mesh, from
   /// which the direction (of length one along z) leads through all of it.
   static constexpr float kStart = 4;
   std::array<float, 3> start() const {
     const float z = -kStart * static_cast<float>(sign_);
-    return place(offset_x_ + slope_x_ * z, offset_y_ + slope_y_ * z, z);
+    return place(line_.offset_x + line_.slope_x * z, line_.offset_y + line_.slope_y * z, z);
   }
   std::array<float, 3> step() const {
     const float s = static_cast<float>(sign_);
-    return place(slope_x_ * s, slope_y_ * s, s);
+    return place(line_.slope_x * s, line_.slope_y * s, s);
   }
   /// That ray's parameter at this z.
   float parameter(double z) const { return static_cast<float>(z * sign_) + kStart; }
 
  private:
+  friend class FrameLanes;  // sets sixteen at once
+
+  void set_axis(int major, int sign) {
+    // A cyclic permutation keeps the handedness.
+    x_ = index((major + 1) % 3);
+    y_ = index((major + 2) % 3);
+    z_ = index(major);
+    sign_ = sign;
+  }
   static std::size_t index(int axis) { return static_cast<std::size_t>(axis); }
   std::array<float, 3> place(float x, float y, float z) const {
     std::array<float, 3> p;
@@ -153,7 +161,7 @@ class ShearedFrame {
 
   std::size_t x_ = 0, y_ = 1, z_ = 2;
   int sign_ = 1;
-  float slope_x_ = 0, slope_y_ = 0, offset_x_ = 0, offset_y_ = 0;
+  Line line_;
   double t_per_z_ = 1, t_offset_ = 0;
 };
 

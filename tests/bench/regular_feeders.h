@@ -1,6 +1,7 @@
 /// Rays for packets through a regular grid, and through the same grid taken as hexahedra.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -41,14 +42,20 @@ class HexahedraFeeder : public PacketFeeder {
   HexahedraFeeder(const WalkableGrid& mesh, const BoundaryIndex<GridWalker>& boundary,
                   const std::vector<Ray>& rays)
       : mesh_(mesh), frames_(rays.size()), entries_(rays.size()) {
-    std::vector<const ShearedFrame*> frames;
-    std::vector<EntryList*> found;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      frames_[i].set(rays[i], mesh.frame);
-      frames.push_back(&frames_[i]);
-      found.push_back(&entries_[i]);
+    RayLanes lanes;
+    FrameLanes frames;
+    std::array<EntryList, FrameLanes::kRays> found;
+    for (std::size_t begin = 0; begin < rays.size(); begin += FrameLanes::kRays) {
+      lanes.size = 0;
+      const std::size_t end = std::min(begin + FrameLanes::kRays, rays.size());
+      for (std::size_t i = begin; i < end; ++i) lanes.add(rays[i]);
+      frames.set(lanes, mesh.frame);
+      boundary.first_entries(frames, found);
+      for (std::size_t i = begin; i < end; ++i) {
+        frames_[i] = frames.frame(i - begin);
+        entries_[i] = found[i - begin];
+      }
     }
-    boundary.first_entries(frames, found);
   }
   HexahedraFeeder(const HexahedraFeeder&) = delete;
   HexahedraFeeder& operator=(const HexahedraFeeder&) = delete;

@@ -9,9 +9,12 @@
 #include <string>
 #include <utility>
 
+#include "hwy/targets.h"
 #include "plume/datasets/generate.h"
 #include "plume/lib/plume.h"
 #include "plume/tests/reference/box_chord.h"
+#include "plume/traverse/frame_lanes.h"
+#include "plume/traverse/packets.h"
 
 namespace plume::test {
 namespace {
@@ -379,6 +382,32 @@ TEST(Camera, ShowsAPartOfALargerPictureWithItsWindowBesideTheLineOfSight) {
       for (std::size_t a = 0; a < 3; ++a) {
         EXPECT_NEAR(ray.origin[a], expected.origin[a], 1e-12);
         EXPECT_NEAR(ray.direction[a], expected.direction[a], 1e-12);
+      }
+    }
+  }
+}
+
+TEST(Camera, MakesSixteenRaysAsItMakesOne) {
+  for (const bool parallel : {false, true}) {
+    Camera camera{{1.5, -2, 0.7}, {0.1, 0.2, 0.3}, {0, 0.3, 1}};
+    camera.parallel = parallel;
+    camera.window_center = {0.25, -1.5};
+    const PixelRays pixels(camera, 53, 37);
+    std::array<double, 16> x{}, y{};
+    for (std::size_t i = 0; i < 16; ++i) {
+      x[i] = 3.0 * static_cast<double>(i) + 0.5;
+      y[i] = static_cast<double>(i * i % 37) + 0.5;
+    }
+    for (std::int64_t sets = hwy::SupportedTargets(); sets != 0; sets &= sets - 1) {
+      limit_packet_instruction_sets(sets & -sets);
+      RayLanes rays;
+      pixels.set(rays, x, y, 15);
+      limit_packet_instruction_sets(0);
+      ASSERT_EQ(rays.size, 15u);
+      for (std::size_t i = 0; i < rays.size; ++i) {
+        const Ray expected = pixels(x[i], y[i]);
+        EXPECT_EQ(rays.ray(i).origin, expected.origin) << "ray " << i;
+        EXPECT_EQ(rays.ray(i).direction, expected.direction) << "ray " << i;
       }
     }
   }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <random>
@@ -21,32 +22,35 @@ template <class Walker>
 void expect_same_entries(const Mesh& user_mesh, const typename Walker::Mesh& mesh) {
   const BoundaryIndex<Walker> boundary(mesh);
   AdversarialRays make_ray(user_mesh, bounds_of(user_mesh.points), 17);
-  std::array<std::vector<ShearedFrame>, 4> groups;
+  std::array<std::vector<Ray>, 4> groups;
   for (std::uint64_t i = 0; i < 6000; ++i) {
-    ShearedFrame frame;
-    ASSERT_TRUE(frame.set(make_ray(i), mesh.frame));
-    groups[static_cast<std::size_t>(frame.axis())].push_back(frame);
-    groups[3].push_back(frame);
+    const Ray ray = make_ray(i);
+    groups[static_cast<std::size_t>(longest_axis(ray.direction))].push_back(ray);
+    groups[3].push_back(ray);
   }
   std::size_t entries = 0;
-  for (const auto& frames : groups) {
-    std::vector<EntryList> found(frames.size());
-    std::vector<const ShearedFrame*> pointers;
-    std::vector<EntryList*> lists;
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      pointers.push_back(&frames[i]);
-      lists.push_back(&found[i]);
-    }
-    boundary.first_entries(pointers, lists);
-    for (std::size_t i = 0; i < frames.size(); ++i) {
-      const Walker walker(mesh, frames[i]);
-      const EntryList expected = boundary.next_entries(walker, frames[i]);
-      ASSERT_EQ(found[i].size, expected.size) << "ray " << i;
+  for (const auto& rays : groups) {
+    std::array<EntryList, FrameLanes::kRays> found;
+    for (std::size_t ray = 0; ray < rays.size(); ++ray) {
+      const std::size_t i = ray % FrameLanes::kRays;
+      if (i == 0) {
+        RayLanes lanes;
+        for (std::size_t r = ray; r < std::min(ray + FrameLanes::kRays, rays.size()); ++r)
+          lanes.add(rays[r]);
+        FrameLanes frames;
+        frames.set(lanes, mesh.frame);
+        boundary.first_entries(frames, found);
+      }
+      ShearedFrame frame;
+      ASSERT_TRUE(frame.set(rays[ray], mesh.frame));
+      const Walker walker(mesh, frame);
+      const EntryList expected = boundary.next_entries(walker, frame);
+      ASSERT_EQ(found[i].size, expected.size) << "ray " << ray;
       entries += expected.size;
       for (std::uint32_t e = 0; e < expected.size; ++e) {
-        ASSERT_EQ(found[i].entries[e].boundary, expected.entries[e].boundary) << "ray " << i;
-        ASSERT_EQ(found[i].entries[e].rank, expected.entries[e].rank) << "ray " << i;
-        ASSERT_EQ(found[i].entries[e].place.z, expected.entries[e].place.z) << "ray " << i;
+        ASSERT_EQ(found[i].entries[e].boundary, expected.entries[e].boundary) << "ray " << ray;
+        ASSERT_EQ(found[i].entries[e].rank, expected.entries[e].rank) << "ray " << ray;
+        ASSERT_EQ(found[i].entries[e].place.z, expected.entries[e].place.z) << "ray " << ray;
       }
     }
   }

@@ -46,24 +46,17 @@ class FirstHits {
  private:
   static constexpr int kTile = 16;
   struct Tile {
-    std::array<ShearedFrame, kTile * kTile> frames;
-    std::array<EntryList, kTile * kTile> lists;
-    std::vector<const ShearedFrame*> frame_at;
-    std::vector<EntryList*> list_at;
+    FrameLanes frames;
+    std::array<EntryList, FrameLanes::kRays> lists;
   };
 
   void find_in_tile(const PixelRays& rays, int x, int y, Tile& tile) const {
-    tile.frame_at.clear();
-    tile.list_at.clear();
-    for (int i = 0; i < kTile * kTile; ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      tile.lists[at].clear();
-      if (!tile.frames[at].set(rays(x + i % kTile + 0.5, y + i / kTile + 0.5), mesh_.frame))
-        continue;
-      tile.frame_at.push_back(&tile.frames[at]);
-      tile.list_at.push_back(&tile.lists[at]);
+    for (int row = 0; row < kTile; ++row) {
+      RayLanes lanes;
+      for (int i = 0; i < kTile; ++i) lanes.add(rays(x + i + 0.5, y + row + 0.5));
+      tile.frames.set(lanes, mesh_.frame);
+      boundary_.first_entries(tile.frames, tile.lists);
     }
-    boundary_.first_entries(tile.frame_at, tile.list_at);
   }
 
   const BenchMesh made_;
