@@ -44,16 +44,18 @@ class Record {
     return open_.empty() && edges_.size() <= kMostEdges;
   }
 
-  std::size_t size() const { return 1 + corners_.size() + edges_.size() + faces_.size(); }
+  std::size_t size() const { return 1 + padded() + edges_.size() + faces_.size(); }
 
   void write(std::uint32_t* to) const {
-    *to++ = static_cast<std::uint32_t>(corners_.size() | edges_.size() << 8 | faces_.size() << 16);
-    for (const std::uint32_t point : corners_) *to++ = 2 * point;
+    *to++ = static_cast<std::uint32_t>(padded() | edges_.size() << 8 | faces_.size() << 16);
+    for (std::size_t i = 0; i < padded(); ++i) *to++ = 2 * corners_[std::min(i, corners_.size() - 1)];
     to = std::copy(edges_.begin(), edges_.end(), to);
     std::copy(faces_.begin(), faces_.end(), to);
   }
 
  private:
+  std::size_t padded() const { return (corners_.size() + 3) / 4 * 4; }
+
   struct Open {
     std::uint32_t from, to, face;
   };

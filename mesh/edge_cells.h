@@ -14,7 +14,8 @@ struct WalkableCells;
 ///
 /// A cell's record, in words of 32 bits:
 ///   - the number of its corners, of its edges and of its faces, eight bits each from the lowest;
-///   - a word a corner: twice the point's number;
+///   - a word a corner: twice the point's number; the last one again to make a multiple of four, which
+///     that number is;
 ///   - a word an edge: its two corners and the two faces that it lies between, eight bits each from
 ///     the lowest;
 ///   - a word a face, in the order of WalkableCells::faces_of(): a bit for each of its corners, none

@@ -38,8 +38,8 @@ class EdgeSteps {
     HWY_ALIGN std::uint32_t cell[kMaxLanes];
     HWY_ALIGN std::uint32_t face[kMaxLanes];  // by which the ray came in
     HWY_ALIGN std::uint32_t rank[kMaxLanes];
-    bool once[kMaxLanes];  // no other crossing of that face is odd
-    const ShearedFrame* frame[kMaxLanes];
+    EdgeRay ray[kMaxLanes];
+    unsigned once = 0;  // lanes that cross that face once, or a loop whose parity would tell
   };
 
   template <bool kMeasure>
@@ -67,30 +67,22 @@ class EdgeSteps {
   HWY_INLINE StepResult Step(State& state, SegmentStart<kMeasure>&) const {
     const DF d;
     const DU du;
-    HWY_ALIGN std::uint32_t cell[kMaxLanes] = {}, face[kMaxLanes] = {}, rank[kMaxLanes] = {};
-    HWY_ALIGN float winding[kMaxLanes];
-    HWY_ALIGN float corners[kMaxLanes][16];
-    unsigned asking = 0, left = 0;
-    for (unsigned live = state.live; live != 0; live &= live - 1) {
-      const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(live);
-      EdgeExit exit;
+    HWY_ALIGN std::uint32_t cell[kMaxLanes];
+    EdgeExits exits;
+    const unsigned known = state.live & state.once;
+    unsigned asking = (state.live & ~state.once) |
+                      lanes_.Leave<kMeasure>(state.ray, state.cell, state.face, known, exits);
+    unsigned left = 0, inside_bits = 0;
+    for (unsigned lanes = known; lanes != 0; lanes &= lanes - 1) {
+      const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
       const std::uint32_t here = state.cell[lane];
-      if (HWY_UNLIKELY(!state.once[lane] ||
-                       !lanes_.Leave<kMeasure>(state, lane, *state.frame[lane], here,
-                                               state.face[lane], exit, corners[lane]))) {
-        asking |= 1u << lane;
-        continue;
-      }
-      const auto& sides = mesh_.face_sides[exit.face];
-      const bool owns = sides.owner == here;
-      const std::uint32_t next = owns ? sides.neighbor : sides.owner;
-      left |= static_cast<unsigned>(next == kNone) << lane;
-      // Loops are seen from outside of their owner; from there a way out winds positively where z
-      // grows along the ray.
-      winding[lane] = owns ? state.t_per_z[lane] : -state.t_per_z[lane];
-      cell[lane] = next == kNone ? 0 : next;
-      face[lane] = exit.face;
-      rank[lane] = exit.rank;
+      const auto& sides = mesh_.face_sides[exits.face[lane]];
+      const std::uint32_t next = sides.owner ^ sides.neighbor ^ here;
+      const std::uint32_t inside = sides.owner == here ? 0 : 1;
+      const std::uint32_t leaves = next == kNone ? 1 : 0;
+      left |= leaves << lane;
+      inside_bits |= inside << lane;
+      cell[lane] = next & (leaves - 1);
     }
     StepResult result;
     result.left = MaskOf(left);
@@ -99,19 +91,26 @@ class EdgeSteps {
       for (std::size_t i = 0; i < 4; ++i) {
         HWY_ALIGN std::uint32_t pairs[kMaxLanes];
         hn::Store(hn::Add(hn::ShiftLeft<3>(hn::Iota(du, 0)), hn::Set(du, static_cast<std::uint32_t>(2 * i))), du, pairs);
-        const FourFloats corner = LoadFour(corners[0], pairs);
+        const FourFloats corner = LoadFour(exits.corners[0], pairs);
         quad.x[i] = corner.a;
         quad.y[i] = corner.b;
         quad.z[i] = corner.c;
         quad.s[i] = corner.d;
       }
-      const MF beside = MeasurePatch(quad, hn::Load(d, winding), result.z, result.s);
+      // Loops are seen from outside of their owner; from there a way out winds positively where z
+      // grows along the ray.
+      const VF from_outside = hn::Load(d, state.t_per_z);
+      const VF winding = hn::IfThenElse(MaskOf(inside_bits), hn::Neg(from_outside), from_outside);
+      const MF beside = MeasurePatch(quad, winding, result.z, result.s);
       asking |= BitsOf(beside) & state.live;
     }
-    if (HWY_UNLIKELY(asking != 0)) AskWalker<kMeasure>(state, asking, cell, face, rank, result);
-    hn::Store(hn::Load(du, cell), du, state.cell);
-    hn::Store(hn::Load(du, face), du, state.face);
-    hn::Store(hn::Load(du, rank), du, state.rank);
+    if (HWY_UNLIKELY(asking != 0)) AskWalker<kMeasure>(state, asking, cell, exits, result);
+    for (unsigned lanes = state.live; lanes != 0; lanes &= lanes - 1) {
+      const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
+      state.cell[lane] = cell[lane];
+      state.face[lane] = exits.face[lane];
+      state.rank[lane] = exits.rank[lane];
+    }
     return result;
   }
 
@@ -122,35 +121,39 @@ class EdgeSteps {
     return hn::RebindMask(DF(), hn::Ne(hn::And(bit, hn::Set(du, bits)), hn::Zero(du)));
   }
 
-  // Parity tells of a loop of up to four corners that it is crossed once, if it is.
-  bool is_crossed_once(const ShearedFrame& frame, std::uint32_t face) const {
+  // Whether parity tells how often the face is crossed by which a lane's ray comes in: of a loop of
+  // up to four corners it does.
+  void set_once(State& state, std::size_t lane, std::uint32_t face) const {
     const std::size_t size = mesh_.loop(face).size();
-    return size <= 4 || (size <= kMostEdgeCellCorners && lanes_.crossings(frame, face) == 1);
+    const bool once =
+        size <= 4 ||
+        (size <= kMostEdgeCellCorners && lanes_.Crossings(*state.ray[lane].frame, face) == 1);
+    state.once = (state.once & ~(1u << lane)) | static_cast<unsigned>(once) << lane;
   }
 
   void PutPlace(State& state, std::size_t lane, const CellStart& start) const {
     state.cell[lane] = start.cell;
     state.face[lane] = start.face;
     state.rank[lane] = start.rank;
-    state.frame[lane] = start.frame;
-    state.once[lane] = is_crossed_once(*start.frame, start.face);
+    state.ray[lane].put(*start.frame);
+    set_once(state, lane, start.face);
   }
 
   // Takes the step of some lanes over from the scalar walker.
   template <bool kMeasure>
   HWY_NOINLINE void AskWalker(State& state, unsigned asking, std::uint32_t* cell,
-                              std::uint32_t* face, std::uint32_t* rank, StepResult& result) const {
+                              EdgeExits& exits, StepResult& result) const {
     AskedLanes<kMeasure> asked(result);
     for (; asking != 0; asking &= asking - 1) {
       const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(asking);
-      CellWalker walker(mesh_, *state.frame[lane]);
+      CellWalker walker(mesh_, *state.ray[lane].frame);
       walker.enter({state.cell[lane], state.face[lane]}, state.rank[lane]);
-      cell[lane] = face[lane] = rank[lane] = 0;
+      cell[lane] = 0;
       if (!asked.ask(lane, walker)) continue;
       cell[lane] = walker.cell();
-      face[lane] = walker.face();
-      rank[lane] = walker.rank();
-      state.once[lane] = is_crossed_once(*state.frame[lane], face[lane]);
+      exits.face[lane] = walker.face();
+      exits.rank[lane] = walker.rank();
+      set_once(state, lane, walker.face());
     }
     asked.put(result);
   }
