@@ -48,7 +48,8 @@ class Record {
 
   void write(std::uint32_t* to) const {
     *to++ = static_cast<std::uint32_t>(padded() | edges_.size() << 8 | faces_.size() << 16);
-    for (std::size_t i = 0; i < padded(); ++i) *to++ = 2 * corners_[std::min(i, corners_.size() - 1)];
+    for (std::size_t i = 0; i < padded(); ++i)
+      *to++ = 2 * corners_[std::min(i, corners_.size() - 1)];
     to = std::copy(edges_.begin(), edges_.end(), to);
     std::copy(faces_.begin(), faces_.end(), to);
   }

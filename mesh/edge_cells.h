@@ -14,11 +14,13 @@ struct WalkableCells;
 ///
 /// A cell's record, in words of 32 bits:
 ///   - the number of its corners, of its edges and of its faces, eight bits each from the lowest;
-///   - a word a corner: twice the point's number; the last one again to make a multiple of four, which
+///   - a word a corner: twice the point's number; the last one again to make a multiple of four,
+///   which
 ///     that number is;
 ///   - a word an edge: its two corners and the two faces that it lies between, eight bits each from
 ///     the lowest;
-///   - a word a face, in the order of WalkableCells::faces_of(): a bit for each of its corners, none
+///   - a word a face, in the order of WalkableCells::faces_of(): a bit for each of its corners,
+///   none
 ///     where the face is a triangle, which a ray crosses once or not at all.
 struct EdgeCells {
   std::vector<std::uint32_t> begin;  ///< of each cell's record in `words`; kNone where it has none

@@ -1,6 +1,5 @@
-// The way out of a cell of any number of corners for one ray, the cell's corners and edges side by
-// side in vectors. Compiled once for each instruction set: to be included after
-// hwy/foreach_target.h alone.
+// The ways out of cells of any number of corners, a cell's corners and edges side by side in
+// vectors. Compiled once for each instruction set: to be included after hwy/foreach_target.h alone.
 
 // clang-format off
 #if defined(PLUME_TRAVERSE_EDGE_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -158,9 +157,10 @@ HWY_INLINE VU FacesOf(VU edge) {
 
 // Where the lanes' rays go.
 struct EdgeExits {
-  std::uint32_t face[kMaxLanes];       // a number in face_sides
-  std::uint32_t rank[kMaxLanes];       // of the crossing
-  HWY_ALIGN float corners[kMaxLanes][16];  // x, y, z and the scalar of what the way out is measured by
+  std::uint32_t face[kMaxLanes];  // a number in face_sides
+  std::uint32_t rank[kMaxLanes];  // of the crossing
+  HWY_ALIGN float corners[kMaxLanes]
+                         [16];  // x, y, z and the scalar of what the way out is measured by
 };
 
 // CellWalker's leave() for several lanes, each in a cell of its own. A lane after the other goes
@@ -198,9 +198,9 @@ class EdgeLanes {
     ForEach(lanes, [&](std::size_t lane) HWY_ATTR {
       const std::uint32_t odd = work[lane].odd, others = odd & (odd - 1);
       // Two bits, no more; which of them is the way out nobody could guess: no branches.
-      std::uint32_t bad =
-          static_cast<std::uint32_t>(others == 0) |
-          static_cast<std::uint32_t>((others & (others - 1)) != 0) | (unknown >> lane & 1);
+      std::uint32_t bad = static_cast<std::uint32_t>(others == 0) |
+                          static_cast<std::uint32_t>((others & (others - 1)) != 0) |
+                          (unknown >> lane & 1);
       const std::uint32_t any = 1;
       const std::uint32_t* const faces = mesh_.cell_faces.data() + mesh_.cell_begin[cell[lane]];
       const std::uint32_t first = faces[hwy::Num0BitsBelowLS1Bit_Nonzero32(bad != 0 ? any : odd)];
@@ -220,8 +220,8 @@ class EdgeLanes {
       const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(bits);
       const std::uint32_t* const faces = mesh_.cell_faces.data() + mesh_.cell_begin[cell[lane]];
       for (std::uint32_t of = work[lane].doubtful; of != 0; of &= of - 1)
-        if (HWY_UNLIKELY(Crossings(*rays[lane].frame,
-                                   faces[hwy::Num0BitsBelowLS1Bit_Nonzero32(of)]) != 0))
+        if (const std::size_t face = hwy::Num0BitsBelowLS1Bit_Nonzero32(of);
+            !IsBeside(work[lane], face) && Crossings(*rays[lane].frame, faces[face]) != 0)
           unknown |= 1u << lane;
     }
     ForEach(polygons & ~unknown, [&](std::size_t lane) HWY_ATTR {
@@ -265,21 +265,24 @@ class EdgeLanes {
     to[3] = p.scalar;
 #else
     const hn::FixedTag<float, 4> d4;
-    const auto p = hn::TableLookupLanes(hn::LoadU(d4, points_ + 4 * static_cast<std::size_t>(point)),
-                                        hn::SetTableIndices(d4, order_));
+    const auto p =
+        hn::TableLookupLanes(hn::LoadU(d4, points_ + 4 * static_cast<std::size_t>(point)),
+                             hn::SetTableIndices(d4, order_));
     const auto sheared = hn::Sub(hn::Sub(p, hn::Load(d4, ray.offset)),
                                  hn::Mul(hn::Load(d4, ray.slope), hn::Broadcast<2>(p)));
     hn::StoreU(sheared, d4, to);
 #endif
   }
 
-  // Of a cell's corners, a bit each: those below y = 0, those on the ray's right, and those that are
-  // not well beyond each of four lines through the ray.
+  // Of a cell's corners, a bit each: those below y = 0, those on the ray's right, and those that
+  // are not well beyond each of four lines through the ray.
   struct CornerBits {
-    std::uint32_t below = 0, right = 0, within0 = 0, within1 = 0, within2 = 0, within3 = 0;
+    std::uint32_t below = 0, right = 0, just = 0, within0 = 0, within1 = 0, within2 = 0,
+                  within3 = 0;
     HWY_INLINE void operator|=(const CornerBits& other) {
       below |= other.below;
       right |= other.right;
+      just |= other.just;
       within0 |= other.within0;
       within1 |= other.within1;
       within2 |= other.within2;
@@ -308,23 +311,25 @@ class EdgeLanes {
     const std::size_t corners = *record & 255;
     work.sizes = *record;
     work.edges = record + 1 + corners;
-    work.bits = CornerBits();
-    for (std::size_t c = 0; c < corners; c += kLanes)
-      work.bits |= ShearCorners(ray, record + 1, c, corners, work.table);
+    CornerBits bits = ShearCorners(ray, record + 1, 0, corners, work.table);
+    for (std::size_t c = kLanes; c < corners; c += kLanes)
+      bits |= ShearCorners(ray, record + 1, c, corners, work.table);
+    work.bits = bits;
   }
 
   HWY_INLINE void DecideCell(Work& work) const {
     const DU du;
     constexpr std::size_t kLanes = hn::MaxLanes(DF());
     const std::size_t edges = work.sizes >> 8 & 255, faces = work.sizes >> 16;
-    VU of_faces = hn::Zero(du);
-    for (std::size_t e = 0; e < edges; e += kLanes)
+    VU of_faces = Odd(work.edges, 0, edges, work.table);
+    for (std::size_t e = kLanes; e < edges; e += kLanes)
       of_faces = hn::Xor(of_faces, Odd(work.edges, e, edges, work.table));
-    work.odd = XorOfLanes(du, of_faces);
-    work.doubtful = 0;
-    for (std::size_t f = 0; f < faces; f += kLanes)
-      work.doubtful |= Doubtful(work.edges + edges, f, faces, work.bits);
-    work.doubtful &= ~work.odd;
+    const std::uint32_t odd = XorOfLanes(du, of_faces);
+    std::uint32_t doubtful = Doubtful(work.edges + edges, 0, faces, work.bits);
+    for (std::size_t f = kLanes; f < faces; f += kLanes)
+      doubtful |= Doubtful(work.edges + edges, f, faces, work.bits);
+    work.odd = odd;
+    work.doubtful = doubtful & ~odd;
   }
 
   // Puts as many corners as there are lanes, from the `at`-th, into the table.
@@ -347,10 +352,10 @@ class EdgeLanes {
     bits.below = BitsFrom(hn::Lt(y, zero), at);
     bits.right = BitsFrom(hn::Gt(x, zero), at);
     // So close to y = 0 that products may underflow.
-    const std::uint32_t just = bits.below & BitsFrom(hn::Gt(y, hn::Set(d, -0x1p-100f)), at);
-    bits.within0 = just | BitsFrom(hn::Lt(sum, margin), at);
+    bits.just = bits.below & BitsFrom(hn::Gt(y, hn::Set(d, -0x1p-100f)), at);
+    bits.within0 = bits.just | BitsFrom(hn::Lt(sum, margin), at);
     bits.within1 = BitsFrom(hn::Gt(sum, minus_margin), at);
-    bits.within2 = just | BitsFrom(hn::Lt(difference, margin), at);
+    bits.within2 = bits.just | BitsFrom(hn::Lt(difference, margin), at);
     bits.within3 = BitsFrom(hn::Gt(difference, minus_margin), at);
     return bits;
   }
@@ -373,14 +378,36 @@ class EdgeLanes {
                                            std::size_t count, const CornerBits& bits) {
     const DU du;
     const VU mask = hn::IfThenElseZero(hn::FirstN(du, count - at), hn::LoadU(du, faces + at));
-    auto none = [&](std::uint32_t corners) HWY_ATTR {
-      return hn::Eq(hn::And(mask, hn::Set(du, corners)), hn::Zero(du));
-    };
+    auto none = [&](std::uint32_t corners)
+                    HWY_ATTR { return hn::Eq(hn::And(mask, hn::Set(du, corners)), hn::Zero(du)); };
     const auto beside = hn::Or(hn::Or(none(bits.below), none(~bits.below)),
                                hn::Or(none(bits.right), none(~bits.right)));
     const auto far = hn::Or(hn::Or(none(bits.within0), none(bits.within1)),
                             hn::Or(none(bits.within2), none(bits.within3)));
     return BitsFrom(hn::RebindMask(DF(), hn::Not(hn::Or(beside, far))), at);
+  }
+
+  // Whether the corners of a face are well beyond one of some more lines through the ray.
+  static HWY_INLINE bool IsBeside(const Work& work, std::size_t face) {
+    const DF d;
+    constexpr std::size_t kLanes = hn::MaxLanes(DF());
+    const std::size_t corners = work.sizes & 255, edges = work.sizes >> 8 & 255;
+    const std::uint32_t mask = work.edges[edges + face];
+    std::uint32_t below[kLines] = {}, above[kLines] = {};
+    for (std::size_t c = 0; c < corners; c += kLanes) {
+      const VF x = hn::Load(d, work.table.x + c), y = hn::Load(d, work.table.y + c);
+      for (std::size_t i = 0; i < kLines; ++i) {
+        const VF along =
+            hn::Add(hn::Mul(x, hn::Set(d, kLine[i][0])), hn::Mul(y, hn::Set(d, kLine[i][1])));
+        below[i] |= BitsFrom(hn::Lt(along, hn::Set(d, kMargin)), c);
+        above[i] |= BitsFrom(hn::Gt(along, hn::Set(d, -kMargin)), c);
+      }
+    }
+    unsigned beside = 0;
+    for (std::size_t i = 0; i < kLines; ++i)
+      beside |= static_cast<unsigned>((mask & (below[i] | work.bits.just)) == 0) |
+                static_cast<unsigned>((mask & above[i]) == 0);
+    return beside != 0;
   }
 
   // Of a polygon's fan the triangle that the ray crosses: its rank and its corners. False where
@@ -394,7 +421,7 @@ class EdgeLanes {
     HWY_ALIGN float center[4];
     CenterOf(fan, size, center);
     const std::uint32_t crossed = size <= hn::MaxLanes(DF()) ? CrossedTogether(fan, size, center)
-                                                            : CrossedInTurn(fan, size, center);
+                                                             : CrossedInTurn(fan, size, center);
     if (HWY_UNLIKELY((crossed & (crossed - 1)) != 0)) return false;
     rank = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(crossed));
     if constexpr (kMeasure) {
@@ -466,7 +493,22 @@ class EdgeLanes {
     return crossed;
   }
 
+  // A face whose corners are all that far beyond a line through the ray is not crossed, and the
+  // scalar walker says so, too. Coordinates are below 8 (those of the mesh below 1, a ray that
+  // meets it within 2 of its centre), so that rounding moves a corner's distance from the line, or
+  // that of a fan's centre, by less than 2^-20. With the line to the left of them, edges and spokes
+  // cross y = 0 at x >= 2^-19 if they do: the products that right_of_ray() compares differ by that
+  // times the edge's extent in y, which is more than their rounding, 2^-21 of it at the most; they
+  // are not both rounded to 0, as no corner is just below y = 0. So all of these bits are 1, and
+  // around every triangle they add up to 0. With the line to the right all are 0, as rounding turns
+  // no order around. Of quadrilaterals the same bits and products in double precision decide
+  // (is_grazed()). Their signs are exact, so what they say could be wrong only where the patch's
+  // quadratics nearly have a double root, whose place is then within 2^-24 of the ray, rather than
+  // 2^-19.
   static constexpr float kMargin = 0x1p-18f;
+  static constexpr std::size_t kLines = 8;
+  static constexpr float kLine[kLines][2] = {{1, 0.25f},  {1, 0.6f},  {0.6f, 1},  {0.25f, 1},
+                                             {1, -0.25f}, {1, -0.6f}, {0.6f, -1}, {0.25f, -1}};
 
   const WalkableCells& mesh_;
   const std::uint32_t* begin_;

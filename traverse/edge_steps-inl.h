@@ -25,10 +25,10 @@ namespace plume {
 namespace HWY_NAMESPACE {
 
 // CellWalker's leave() and advance(), a ray a lane (see PacketWalk), for cells that have a record
-// of their corners and edges (EdgeCells). Cells differ too much to be decided side by side, but one
-// has corners and edges enough to fill vectors: so lane after lane is decided (EdgeLanes), and all
-// lanes' ways out are measured together. Steps through a cell with more than one way in and out,
-// and those of cells without a record, are asked of the scalar walker.
+// of their corners and edges (EdgeCells). Cells differ too much to be decided side by side, but
+// each has corners and edges enough to fill vectors: so lane after lane is decided (EdgeLanes), and
+// all lanes' ways out are measured together. Steps through a cell with more than one way in and
+// out, and those of cells without a record, are asked of the scalar walker.
 class EdgeSteps {
  public:
   using Start = CellStart;
@@ -90,7 +90,9 @@ class EdgeSteps {
       QuadLanes<true> quad;
       for (std::size_t i = 0; i < 4; ++i) {
         HWY_ALIGN std::uint32_t pairs[kMaxLanes];
-        hn::Store(hn::Add(hn::ShiftLeft<3>(hn::Iota(du, 0)), hn::Set(du, static_cast<std::uint32_t>(2 * i))), du, pairs);
+        hn::Store(hn::Add(hn::ShiftLeft<3>(hn::Iota(du, 0)),
+                          hn::Set(du, static_cast<std::uint32_t>(2 * i))),
+                  du, pairs);
         const FourFloats corner = LoadFour(exits.corners[0], pairs);
         quad.x[i] = corner.a;
         quad.y[i] = corner.b;
@@ -125,9 +127,8 @@ class EdgeSteps {
   // up to four corners it does.
   void set_once(State& state, std::size_t lane, std::uint32_t face) const {
     const std::size_t size = mesh_.loop(face).size();
-    const bool once =
-        size <= 4 ||
-        (size <= kMostEdgeCellCorners && lanes_.Crossings(*state.ray[lane].frame, face) == 1);
+    const bool once = size <= 4 || (size <= kMostEdgeCellCorners &&
+                                    lanes_.Crossings(*state.ray[lane].frame, face) == 1);
     state.once = (state.once & ~(1u << lane)) | static_cast<unsigned>(once) << lane;
   }
 
@@ -141,14 +142,14 @@ class EdgeSteps {
 
   // Takes the step of some lanes over from the scalar walker.
   template <bool kMeasure>
-  HWY_NOINLINE void AskWalker(State& state, unsigned asking, std::uint32_t* cell,
-                              EdgeExits& exits, StepResult& result) const {
+  HWY_NOINLINE void AskWalker(State& state, unsigned asking, std::uint32_t* cell, EdgeExits& exits,
+                              StepResult& result) const {
     AskedLanes<kMeasure> asked(result);
     for (; asking != 0; asking &= asking - 1) {
       const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(asking);
       CellWalker walker(mesh_, *state.ray[lane].frame);
       walker.enter({state.cell[lane], state.face[lane]}, state.rank[lane]);
-      cell[lane] = 0;
+      cell[lane] = exits.face[lane] = exits.rank[lane] = 0;
       if (!asked.ask(lane, walker)) continue;
       cell[lane] = walker.cell();
       exits.face[lane] = walker.face();
