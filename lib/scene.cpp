@@ -180,7 +180,8 @@ Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_un
     take(std::make_unique<Walkable<GridWalker>>(make_walkable_grid(mesh, field, frame_bounds)));
   else if (all_tetrahedra(mesh))
     take(std::make_unique<Walkable<TetWalker>>(
-        make_walkable_tets(mesh, field, frame_bounds, keep_cells, keep_points)));
+        make_walkable_tets(mesh, field, frame_bounds, keep_cells, keep_points,
+                           options.compact_tetrahedra ? TetLinks::compact : TetLinks::whole)));
   else {
     WalkableCells cells = make_walkable_cells(mesh, field, frame_bounds, keep_cells, keep_points);
     prepare_packets(cells);

@@ -45,6 +45,10 @@ struct SceneOptions {
   /// Keep what set_field() needs: where the user's points have gone, 4 bytes each, or, where the
   /// field is constant in cells, where the cells have, 4 bytes each. Of grids, nothing.
   bool keep_field_order = false;
+  /// Tetrahedra alone: keep 16 bytes a cell instead of 32. The same pictures; walked faster beyond
+  /// some 10 million cells and slower below. Without a hierarchy of cells, isosurfaces, maxima and
+  /// minima are walked to.
+  bool compact_tetrahedra = false;
   /// What the default colour map runs over, low below high, where the field's own values at this
   /// time are not all that is going to be shown. By default their 1st to 99th percentile.
   std::optional<std::array<double, 2>> color_range{};

@@ -139,6 +139,8 @@ std::optional<std::string> no_search(const Scene& scene, const RenderSettings& s
     return "all cells that are not empty are to be seen, not isosurfaces alone";
   if (!std::holds_alternative<std::unique_ptr<Tets>>(scene.body().walkable))
     return "it is for tetrahedra";
+  if (std::get<std::unique_ptr<Tets>>(scene.body().walkable)->mesh.is_compact())
+    return "compact tetrahedra are known only to who walks to them";
   if (scene.field().association == Association::cell) return "the scalar is constant in each cell";
   if (!settings.clip_planes.empty()) return "clip planes cut rays";
   if (scene.surface_triangle_count() > 0 || !settings.depth_limit.empty())

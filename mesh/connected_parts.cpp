@@ -48,9 +48,46 @@ std::size_t parts_of_grid(const Grid& mesh) {
   return sets.count() - hidden;
 }
 
+// Compact cells are known from outside alone: a flood from the boundary, which every part has.
+std::size_t parts_of_compact(const WalkableTets& mesh) {
+  struct Place {
+    std::uint32_t cell, from;
+    std::array<std::uint32_t, 4> ids;  // that of the point across from where we came in last
+  };
+  std::vector<bool> seen(mesh.cell_count());
+  std::vector<Place> open;
+  std::size_t parts = 0;
+  for (const WalkableTets::Boundary& face : mesh.boundary) {
+    if (seen[face.cell]) continue;
+    ++parts;
+    seen[face.cell] = true;
+    open.push_back({face.cell, kNone, {face.loop[0], face.loop[1], face.loop[2], face.apex}});
+    while (!open.empty()) {
+      const Place at = open.back();
+      open.pop_back();
+      auto rank = [&](std::uint32_t id) {
+        return static_cast<std::size_t>(
+            std::count_if(at.ids.begin(), at.ids.end(), [&](auto other) { return other < id; }));
+      };
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::uint32_t next =
+            mesh.compact_cells[at.cell].neighbor(rank(at.ids[i]), rank(at.ids[3]), at.from);
+        if (next == kNone || seen[next]) continue;
+        seen[next] = true;
+        const std::array<std::uint32_t, 3> common{at.ids[(i + 1) % 3], at.ids[(i + 2) % 3],
+                                                  at.ids[3]};
+        const std::uint32_t apex = mesh.compact_cells[next].apex(common[0] ^ common[1] ^ common[2]);
+        open.push_back({next, at.cell, {common[0], common[1], common[2], apex}});
+      }
+    }
+  }
+  return parts;
+}
+
 }  // namespace
 
 std::size_t connected_parts(const WalkableTets& mesh) {
+  if (mesh.is_compact()) return parts_of_compact(mesh);
   Sets sets(mesh.cells.size());
   for (std::uint32_t c = 0; c < mesh.cells.size(); ++c)
     for (const WalkableTets::Link& link : mesh.cells[c])

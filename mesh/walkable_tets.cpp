@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "plume/mesh/cell_faces.h"
+#include "plume/mesh/huge_pages.h"
 #include "plume/mesh/tet_adjacency.h"
 
 namespace plume {
@@ -61,6 +62,23 @@ void link(std::vector<WalkableTets::Cell>& cells) {
       }
     }
   });
+}
+
+// From what link() begins with.
+std::vector<WalkableTets::CompactCell> compact(const std::vector<WalkableTets::Cell>& cells) {
+  std::vector<WalkableTets::CompactCell> compact;
+  resize_in_huge_pages(compact, cells.size());
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, cells.size(), 4096), [&](const auto& range) {
+    for (std::size_t c = range.begin(); c != range.end(); ++c) {
+      const WalkableTets::Cell& cell = cells[c];
+      auto neighbor = [&](std::size_t face) {
+        return cell[face].cell == kNone ? kNone : cell[face].cell / 4;
+      };
+      compact[c].points = cell[0].apex ^ cell[1].apex ^ cell[2].apex ^ cell[3].apex;
+      for (std::size_t r = 1; r < 4; ++r) compact[c].neighbors[r - 1] = neighbor(r) ^ neighbor(0);
+    }
+  });
+  return compact;
 }
 
 std::vector<std::uint64_t> bits_of(const std::vector<std::uint8_t>& flags) {
@@ -125,22 +143,28 @@ std::array<std::uint32_t, 4> WalkableTets::points_of_rare(std::uint32_t cell) co
 
 std::size_t WalkableTets::bytes() const {
   return points.size() * sizeof(WalkablePoint) + cells.size() * sizeof(Cell) +
-         cell_values.size() * sizeof(float) + original_cells.size() * sizeof(std::uint32_t) +
+         compact_cells.size() * sizeof(CompactCell) + cell_values.size() * sizeof(float) +
+         original_cells.size() * sizeof(std::uint32_t) +
          point_numbers.size() * sizeof(std::uint32_t) + boundary.size() * sizeof(Boundary) +
          odd_bits.size() * sizeof(std::uint64_t);
 }
 
 WalkableTets make_walkable_tets(const Mesh& mesh, const ScalarField& scalar, const Bounds& bounds,
-                                bool keep_original_cells, bool keep_point_numbers) {
+                                bool keep_original_cells, bool keep_point_numbers, TetLinks links) {
   TetAdjacency adjacency = find_tet_adjacency(mesh, scalar, bounds);
   WalkableTets tets;
   tets.frame = adjacency.frame;
   tets.points = std::move(adjacency.points);
   tets.findings = std::move(adjacency.findings);
   tets.boundary = boundary_of(adjacency);
-  tets.cells = std::move(adjacency.cells);
-  tets.odd_bits = bits_of(adjacency.odd);
-  link(tets.cells);
+  if (links == TetLinks::compact) {
+    tets.compact_cells = compact(adjacency.cells);
+    adjacency.cells = {};
+  } else {
+    tets.cells = std::move(adjacency.cells);
+    tets.odd_bits = bits_of(adjacency.odd);
+    link(tets.cells);
+  }
   if (scalar.association == Association::cell) {
     tets.cell_values.reserve(adjacency.original.size());
     for (const std::uint32_t cell : adjacency.original)

@@ -82,7 +82,8 @@ class CellSteps {
     return packet.cell;
   }
 
-  HWY_INLINE void Prefetch(const State&) const {}
+  template <class AnyPacket>
+  HWY_INLINE void Prefetch(const State&, const AnyPacket&) const {}
 
   template <bool kMeasure>
   HWY_INLINE StepResult Step(State& state, Packet<kMeasure>& packet) const {

@@ -151,7 +151,8 @@ class GridSteps {
     return CellAt(packet.index);
   }
 
-  HWY_INLINE void Prefetch(const State& state) const {
+  template <class AnyPacket>
+  HWY_INLINE void Prefetch(const State& state, const AnyPacket&) const {
     for (const auto& corner : state.back_by_2) HWY_NAMESPACE::Prefetch(points_, corner);
   }
 

@@ -151,7 +151,8 @@ HWY_INLINE FourFloats LoadFour(const float* HWY_RESTRICT base, const std::uint32
 #endif  // HWY_TARGET == HWY_SCALAR
 
 // The links of the lanes' cells, of which each lane picks one: that of a face's rank. `cells_by_4`
-// are four times the cells' numbers.
+// are four times the cells' numbers. LanesLinks are for cells that caches hold, LinkEach for those
+// that they do not: where it makes no difference they are the same.
 #if HWY_TARGET == HWY_SCALAR
 
 class LanesLinks {
@@ -166,8 +167,11 @@ class LanesLinks {
  private:
   const WalkableTets::Cell& cell_;
 };
+using LinkEach = LanesLinks;
 
-#elif HWY_TARGET <= HWY_AVX3
+#else
+
+#if HWY_TARGET <= HWY_AVX3
 
 // Whole cells are loaded as soon as their numbers are known, and the links permuted once the ranks
 // are: the loads are out of the way by then.
@@ -207,7 +211,7 @@ class LanesLinks {
   __m512i pairs_[8];
 };
 
-#else
+#endif
 
 // The links of these numbers side by side.
 template <class D>
@@ -225,10 +229,9 @@ HWY_INLINE hn::Vec<D> LoadEach(D d, const std::uint64_t* HWY_RESTRICT links,
 }
 
 // One load of 8 bytes a lane, once the rank is known.
-class LanesLinks {
+class LinkEach {
  public:
-  HWY_INLINE LanesLinks(const WalkableTets::Cell* HWY_RESTRICT cells,
-                        const std::uint32_t* cells_by_4)
+  HWY_INLINE LinkEach(const WalkableTets::Cell* HWY_RESTRICT cells, const std::uint32_t* cells_by_4)
       : links_(reinterpret_cast<const std::uint64_t*>(cells)), cells_by_4_(cells_by_4) {
     static_assert(sizeof(WalkableTets::Link) == sizeof(std::uint64_t));
   }
@@ -247,7 +250,11 @@ class LanesLinks {
   const std::uint32_t* cells_by_4_;
 };
 
+#if HWY_TARGET > HWY_AVX3
+using LanesLinks = LinkEach;
 #endif
+
+#endif  // HWY_TARGET == HWY_SCALAR
 
 // Asks for what lies at base + 2 * pairs[lane].
 HWY_INLINE void Prefetch(const float* base, const std::uint32_t* pairs) {

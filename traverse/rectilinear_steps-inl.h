@@ -113,7 +113,8 @@ class RectilinearSteps {
   }
 
   // Near the grid's end, where rays leave, some ask for what nobody needs.
-  HWY_INLINE void Prefetch(const State& state) const {
+  template <class AnyPacket>
+  HWY_INLINE void Prefetch(const State& state, const AnyPacket&) const {
     if (values_ == nullptr) return;
     for (const auto& points : state.ahead)
       for (std::size_t lane = 0; lane < hn::Lanes(DF()); ++lane)
@@ -261,7 +262,7 @@ void Walk(const WalkableRectilinear& mesh, Consumer& consumer, PacketFeeder& fee
   constexpr std::size_t kLargeMesh = 500000;  // values
   auto walk = [&]<bool kAhead>() {
     const RectilinearSteps<kAhead> steps(mesh);
-    PacketWalk<RectilinearSteps<kAhead>, kAhead ? kMaxPackets : kPackets, kAhead, Consumer>(
+    PacketWalk<RectilinearSteps<kAhead>, kAhead ? kLargePackets : kPackets, kAhead, Consumer>(
         steps, consumer, feeder)
         .run();
   };

@@ -12,122 +12,60 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "hwy/highway.h"
 #include "plume/mesh/walkable_tets.h"
 #include "plume/traverse/lane_loads-inl.h"
 #include "plume/traverse/packet_walk-inl.h"
+#include "plume/traverse/tet_corners-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-struct LaneCorners {
-  HWY_ALIGN float x[kMaxLanes];
-  HWY_ALIGN float y[kMaxLanes];
-  HWY_ALIGN float z[kMaxLanes];
-  HWY_ALIGN float s[kMaxLanes];
-  HWY_ALIGN std::uint32_t id[kMaxLanes];
-  HWY_ALIGN float right[kMaxLanes];
-};
+// What cells are read by.
+enum class TetReads { cached, large, compact };
 
-// A corner of the triangle by which the lanes' rays come into their cells. Where nothing is
-// measured, z and s are left alone.
-template <bool kMeasure>
-struct Corner {
-  VF x, y, z, s;
-  VU id;
-
-  HWY_INLINE void Load(const LaneCorners& from) {
-    const DF d;
-    x = hn::Load(d, from.x);
-    y = hn::Load(d, from.y);
-    if constexpr (kMeasure) {
-      z = hn::Load(d, from.z);
-      s = hn::Load(d, from.s);
-    }
-    id = hn::Load(DU(), from.id);
-  }
-  HWY_INLINE void Store(LaneCorners& to) const {
-    const DF d;
-    hn::Store(x, d, to.x);
-    hn::Store(y, d, to.y);
-    if constexpr (kMeasure) {
-      hn::Store(z, d, to.z);
-      hn::Store(s, d, to.s);
-    }
-    hn::Store(id, DU(), to.id);
-  }
-  // Takes another's place in the lanes whose bit is set.
-  HWY_INLINE void Replace(VF bits, const Corner& other) {
-    x = Choose(bits, other.x, x);
-    y = Choose(bits, other.y, y);
-    if constexpr (kMeasure) {
-      z = Choose(bits, other.z, z);
-      s = Choose(bits, other.s, s);
-    }
-    id = Choose(bits, other.id, id);
-  }
-};
-
-// Where rays cross the triangle a, b, c: measure_triangle() in single precision, with products that
-// do not cancel. No bound on one crossing has been measured; sums of lengths are
-// held against the twin's in tests/traverse/tet_packets_test.cpp.
-HWY_INLINE void Measure(const Corner<true>& a, const Corner<true>& b, const Corner<true>& c,
-                        StepResult& result) {
-  const DF d;
-  const VF ab = hn::Xor(a.y, b.y), ac = hn::Xor(a.y, c.y);  // on different sides of y = 0
-  const VF lone_b = hn::AndNot(ac, ab), lone_c = hn::AndNot(ab, ac);
-  Corner<true> lone = a, p = b, q = c;
-  auto place = [&](VF Corner<true>::*of) {
-    lone.*of = Choose(lone_b, b.*of, Choose(lone_c, c.*of, a.*of));
-    p.*of = Choose(lone_b, a.*of, b.*of);
-    q.*of = Choose(lone_c, a.*of, c.*of);
-  };
-  place(&Corner<true>::x);
-  place(&Corner<true>::y);
-  place(&Corner<true>::z);
-  place(&Corner<true>::s);
-  const VF p_height = hn::Sub(p.y, lone.y), q_height = hn::Sub(q.y, lone.y);
-  VF p_distance = hn::Abs(DifferenceOfProducts(lone.x, p.y, p.x, lone.y));
-  VF q_distance = hn::Abs(DifferenceOfProducts(lone.x, q.y, q.x, lone.y));
-  // Only their ratio counts: brought to about 1 by a power of two, so that no product of three
-  // coordinates underflows.
-  const DU du;
-  const VU exponent =
-      hn::And(hn::BitCast(du, hn::Max(p_distance, q_distance)), hn::Set(du, 0x7F800000u));
-  const VF scale = hn::BitCast(d, hn::Sub(hn::Set(du, 0x7F000000u), exponent));
-  p_distance = hn::Mul(p_distance, scale);
-  // If both edges pass through the ray, one of them will do.
-  q_distance = hn::Max(hn::Mul(q_distance, scale), hn::Set(d, 1e-30f));
-  const VF share = hn::Div(lone.y, hn::MulAdd(p_distance, q_height, hn::Mul(q_distance, p_height)));
-  const VF of_p = hn::Mul(q_distance, share), of_q = hn::Mul(p_distance, share);  // negative
-  result.z =
-      hn::NegMulAdd(of_p, hn::Sub(p.z, lone.z), hn::NegMulAdd(of_q, hn::Sub(q.z, lone.z), lone.z));
-  result.s =
-      hn::NegMulAdd(of_p, hn::Sub(p.s, lone.s), hn::NegMulAdd(of_q, hn::Sub(q.s, lone.s), lone.s));
-}
+struct Nothing {};
 
 // TetWalker::decide() and advance(), a ray a lane (see PacketWalk).
-template <int kAxis>
+//
+// Of a mesh that is larger than the caches only the link that is followed is loaded; of compact
+// cells all 16 bytes, and the apex is worked out from them.
+template <int kAxis, TetReads kReads>
 class TetSteps {
  public:
   using Start = TetStart;
   static constexpr bool kInRegisters = true;
+  static constexpr bool kCompact = kReads == TetReads::compact;
 
-  // Corners are written here only while a lane is given a ray; `cells_by_4` and `apex_by_2` always,
-  // as places to load from.
+  // Whether the next apexes' points are fetched at the end of a step rather than at the beginning
+  // of the next one: out of the way of what the packets in between compute, and asked for as early
+  // as can be. With 16 lanes and a measured face, or beyond the caches, that is a tenth faster
+  // (blunt fin's integral, 10 million cells); otherwise registers run out, and it is as much
+  // slower.
+  template <bool kMeasure>
+  static constexpr bool kAhead =
+      HWY_TARGET <= HWY_AVX3&& HWY_ARCH_X86 && !kCompact && (kMeasure || kReads == TetReads::large);
+
+  // Corners are written here only while a lane is given a ray; `cells` and `apex_by_2` always, as
+  // places to load from, in steps of 8 bytes. `previous` is for compact cells.
+  static constexpr int kShift = kCompact ? 1 : 2;
   struct State : LaneState {
-    HWY_ALIGN std::uint32_t cells_by_4[kMaxLanes];
+    HWY_ALIGN std::uint32_t cells[kMaxLanes];
     HWY_ALIGN std::uint32_t apex_by_2[kMaxLanes];
+    HWY_ALIGN std::uint32_t previous[kMaxLanes];
     LaneCorners corners[3];
   };
 
   template <bool kMeasure>
   struct Packet : SegmentStart<kMeasure> {
     Corner<kMeasure> a, b, c;
-    VU apex;
+    VU apex;              // of compact cells: the previous cell
     VF right_a, right_c;  // whether the edges across from a and c cross on the right
+    // The apex', where it is known.
+    [[no_unique_address]] std::conditional_t<kAhead<kMeasure>, FourFloats, Nothing> point;
 
     HWY_INLINE void Load(const State& state) {
       const DF d;
@@ -135,7 +73,10 @@ class TetSteps {
       a.Load(state.corners[0]);
       b.Load(state.corners[1]);
       c.Load(state.corners[2]);
-      apex = hn::ShiftRight<1>(hn::Load(DU(), state.apex_by_2));
+      if constexpr (kCompact)
+        apex = hn::Load(DU(), state.previous);
+      else
+        apex = hn::ShiftRight<1>(hn::Load(DU(), state.apex_by_2));
       right_a = hn::Load(d, state.corners[0].right);
       right_c = hn::Load(d, state.corners[2].right);
     }
@@ -147,11 +88,12 @@ class TetSteps {
       c.Store(state.corners[2]);
       hn::Store(right_a, d, state.corners[0].right);
       hn::Store(right_c, d, state.corners[2].right);
+      if constexpr (kCompact) hn::Store(apex, DU(), state.previous);
     }
   };
 
   explicit TetSteps(const WalkableTets& mesh)
-      : cells_(mesh.cells.data()), points_(mesh.points.data()->position) {}
+      : mesh_(mesh), points_(mesh.points.data()->position) {}
 
   static void Put(State& state, std::size_t lane, const TetStart& start) {
     state.put(lane, start);
@@ -164,34 +106,48 @@ class TetSteps {
       corner.id[lane] = start.ids[c];
       corner.right[lane] = start.right[c] ? -1.0f : 1.0f;
     }
-    state.cells_by_4[lane] = 4 * start.cell;
+    state.cells[lane] = start.cell << kShift;
     state.apex_by_2[lane] = 2 * start.apex;
+    state.previous[lane] = kNone;
   }
   // From cell 0 to wherever numbers lead.
   static void PutNothing(State& state, std::size_t lane) { Put(state, lane, TetStart{}); }
 
   template <bool kMeasure>
   HWY_INLINE VU Cells(const State& state, const Packet<kMeasure>&) const {
-    return hn::ShiftRight<2>(hn::Load(DU(), state.cells_by_4));
+    return hn::ShiftRight<kShift>(hn::Load(DU(), state.cells));
   }
 
-  HWY_INLINE void Prefetch(const State& state) const {
-    HWY_NAMESPACE::Prefetch(reinterpret_cast<const float*>(cells_), state.cells_by_4);
-    HWY_NAMESPACE::Prefetch(points_, state.apex_by_2);
+  template <bool kMeasure>
+  HWY_INLINE void Prefetch(const State& state, const Packet<kMeasure>&) const {
+    if constexpr (kCompact) return HWY_NAMESPACE::Prefetch(compact_cells(), state.cells);
+    HWY_NAMESPACE::Prefetch(reinterpret_cast<const float*>(mesh_.cells.data()), state.cells);
+    if constexpr (!kAhead<kMeasure>) HWY_NAMESPACE::Prefetch(points_, state.apex_by_2);
+  }
+
+  template <bool kMeasure>
+  HWY_INLINE void FetchAhead(const State& state, Packet<kMeasure>& packet) const {
+    if constexpr (kAhead<kMeasure>) packet.point = LoadFour(points_, state.apex_by_2);
   }
 
   template <bool kMeasure>
   HWY_INLINE StepResult Step(State& state, Packet<kMeasure>& packet) const {
     const DF d;
     const DU du;
-    const LanesLinks links(cells_, state.cells_by_4);
-    const ShearedLanes at = Shear(LoadFour(points_, state.apex_by_2), kAxis, state);
+    const auto cells = read_cells(state, packet);
+    const ShearedLanes at = [&] {
+      if constexpr (kAhead<kMeasure>)
+        return Shear(packet.point, kAxis, state);
+      else
+        return Shear(LoadFour(points_, state.apex_by_2), kAxis, state);
+    }();
     Corner<kMeasure> apex;
     apex.x = at.x;
     apex.y = at.y;
     apex.z = at.z;
     apex.s = at.s;
-    apex.id = packet.apex;
+    apex.id = hn::ShiftRight<1>(hn::Load(du, state.apex_by_2));
+    if constexpr (!kCompact) apex.id = packet.apex;
 
     Corner<kMeasure>&a = packet.a, &b = packet.b, &c = packet.c;
     // Right of the ray: low.x * high.y > high.x * low.y, where the apex is high if it is up and low
@@ -223,22 +179,24 @@ class TetSteps {
     }
 
     const VU behind = Choose(out_a, a.id, Choose(out_b, b.id, c.id));
-    // The rank of the corner left behind, as minus the sum of true comparisons.
-    auto below = [&](VU id) { return hn::VecFromMask(du, hn::Lt(id, behind)); };
-    const VU rank = hn::Sub(hn::Zero(du), hn::Add(hn::Add(below(a.id), below(b.id)),
-                                                  hn::Add(below(c.id), below(apex.id))));
-    const Links next = links.pick(rank);
+    const Links next = next_cells(cells, packet, Rank(behind, a.id, b.id, c.id, apex.id), apex.id);
     packet.right_a = Choose(out_b, to_c, Choose(out_c, to_b, packet.right_a));
     packet.right_c = Choose(out_a, to_b, Choose(out_b, to_a, packet.right_c));
     a.Replace(out_a, apex);
     b.Replace(out_b, apex);
     c.Replace(out_c, apex);
 
-    // A lane that has left goes on in cell 0 until it is given another ray.
-    const auto left = hn::Eq(next.cell, hn::Set(du, kNone));
-    hn::Store(hn::IfThenZeroElse(left, hn::ShiftLeft<2>(next.cell)), du, state.cells_by_4);
-    hn::Store(hn::Add(next.apex, next.apex), du, state.apex_by_2);
-    packet.apex = next.apex;
+    // A lane that has left goes on in cell 0 until it is given another ray: through compact cells,
+    // which mean nothing without a way in, to any number.
+    auto left = hn::Eq(next.cell, hn::Set(du, kNone));
+    if constexpr (kCompact) left = hn::Gt(next.cell, hn::Set(du, last_cell_));
+    if constexpr (kCompact) packet.apex = hn::ShiftRight<kShift>(hn::Load(du, state.cells));
+    hn::Store(hn::IfThenZeroElse(left, hn::ShiftLeft<kShift>(next.cell)), du, state.cells);
+    if constexpr (!kCompact) {
+      hn::Store(hn::Add(next.apex, next.apex), du, state.apex_by_2);
+      packet.apex = next.apex;
+    }
+    FetchAhead(state, packet);
 
     StepResult result;
     result.left = hn::RebindMask(d, left);
@@ -247,8 +205,68 @@ class TetSteps {
   }
 
  private:
-  const WalkableTets::Cell* cells_;
+  // What compact cells say of the lanes' neighbours.
+  struct CompactLanes {
+    VU of_1, of_2, of_3;
+
+    HWY_INLINE VU Sum(VU face) const {
+      const DU du;
+      auto is = [&](std::uint32_t rank) { return hn::Eq(face, hn::Set(du, rank)); };
+      return hn::IfThenElse(is(1), of_1,
+                            hn::IfThenElse(is(2), of_2, hn::IfThenElseZero(is(3), of_3)));
+    }
+    // WalkableTets::CompactCell::neighbor().
+    HWY_INLINE VU neighbor(VU out, VU in, VU across_in) const {
+      return hn::Xor(across_in, hn::Xor(Sum(in), Sum(out)));
+    }
+  };
+
+  // How many of the four are below it.
+  static HWY_INLINE VU Rank(VU id, VU a, VU b, VU c, VU d) {
+    const DU du;
+    auto below = [&](VU other) { return hn::VecFromMask(du, hn::Lt(other, id)); };
+    return hn::Sub(hn::Zero(du), hn::Add(hn::Add(below(a), below(b)), hn::Add(below(c), below(d))));
+  }
+
+  const float* compact_cells() const {
+    return reinterpret_cast<const float*>(mesh_.compact_cells.data());
+  }
+
+  // Of compact cells, what they say of neighbours; the apex' place is left in the state.
+  template <bool kMeasure>
+  HWY_INLINE auto read_cells(State& state, const Packet<kMeasure>& packet) const {
+    if constexpr (!kCompact) {
+      using Reader = std::conditional_t<kReads == TetReads::large, LinkEach, LanesLinks>;
+      return Reader(mesh_.cells.data(), state.cells);
+    } else {
+      static_assert(sizeof(WalkableTets::CompactCell) == 16);
+      const DU du;
+      const FourFloats cell = LoadFour(compact_cells(), state.cells);
+      const VU sum = hn::Xor(packet.a.id, hn::Xor(packet.b.id, packet.c.id));
+      // Lanes without a ray may come to any number.
+      const VU apex = hn::Min(hn::Xor(hn::BitCast(du, cell.a), sum), hn::Set(du, last_point_));
+      hn::Store(hn::Add(apex, apex), du, state.apex_by_2);
+      return CompactLanes{hn::BitCast(du, cell.b), hn::BitCast(du, cell.c),
+                          hn::BitCast(du, cell.d)};
+    }
+  }
+
+  // Across the faces of these ranks. Of compact cells the apex is not known yet.
+  template <class Cells, bool kMeasure>
+  static HWY_INLINE Links next_cells(const Cells& cells, const Packet<kMeasure>& packet, VU rank,
+                                     VU apex) {
+    if constexpr (!kCompact) {
+      return cells.pick(rank);
+    } else {
+      const VU in = Rank(apex, packet.a.id, packet.b.id, packet.c.id, apex);
+      return {cells.neighbor(rank, in, packet.apex), hn::Zero(DU())};
+    }
+  }
+
+  const WalkableTets& mesh_;
   const float* points_;
+  const std::uint32_t last_cell_ = static_cast<std::uint32_t>(mesh_.cell_count()) - 1;
+  const std::uint32_t last_point_ = static_cast<std::uint32_t>(mesh_.points.size()) - 1;
 };
 
 // Walks all rays of `feeder`, whose longest axis is `axis`; more packets with prefetching on meshes
@@ -256,12 +274,18 @@ class TetSteps {
 template <class Consumer>
 void Walk(const WalkableTets& mesh, int axis, Consumer& consumer, PacketFeeder& feeder) {
   constexpr std::size_t kLargeMesh = 500000;  // cells
+  auto walk_by = [&]<int kAxis, TetReads kReads, std::size_t kCount>() {
+    using Steps = TetSteps<kAxis, kReads>;
+    constexpr bool kPrefetch = kReads != TetReads::cached;
+    PacketWalk<Steps, kCount, kPrefetch, Consumer>(Steps(mesh), consumer, feeder).run();
+  };
   auto walk = [&]<int kAxis>() {
-    const TetSteps<kAxis> steps(mesh);
-    if (mesh.cells.size() < kLargeMesh)
-      PacketWalk<TetSteps<kAxis>, kPackets, false, Consumer>(steps, consumer, feeder).run();
+    if (mesh.is_compact())
+      walk_by.template operator()<kAxis, TetReads::compact, kCompactPackets>();
+    else if (mesh.cell_count() < kLargeMesh)
+      walk_by.template operator()<kAxis, TetReads::cached, kPackets>();
     else
-      PacketWalk<TetSteps<kAxis>, kMaxPackets, true, Consumer>(steps, consumer, feeder).run();
+      walk_by.template operator()<kAxis, TetReads::large, kLargePackets>();
   };
   switch (axis) {
     case 0:

@@ -40,6 +40,7 @@ class TetWalker {
       right_[i] = crosses_right(corners_[(i + 1) % 3], corners_[(i + 2) % 3]);
     next_ = {face.cell, face.apex};
     cell_ = next_.cell;
+    previous_ = kNone;
   }
 
   std::uint32_t cell() const { return cell_; }
@@ -65,13 +66,15 @@ class TetWalker {
     else
       out = winds(1) ? 1 : 2;
 
-    const std::uint32_t behind = corners_[out].id;
+    const Corner behind = corners_[out];
+    const std::size_t in_rank = rank(apex.id);
     corners_[out] = apex;
     right_[(out + 1) % 3] = to_apex[(out + 2) % 3];
     right_[(out + 2) % 3] = to_apex[(out + 1) % 3];
-    std::size_t rank = 0;
-    for (const Corner& corner : corners_) rank += corner.id < behind ? 1 : 0;
-    next_ = mesh_.cells[cell_][rank];
+    if (mesh_.is_compact())
+      decide_compact(rank(behind.id), in_rank);
+    else
+      next_ = mesh_.cells[cell_][rank(behind.id)];
   }
 
   /// The same, and where the ray crosses that face.
@@ -82,6 +85,7 @@ class TetWalker {
 
   /// Into the cell behind the face left through; false at the boundary.
   bool advance() {
+    previous_ = cell_;
     cell_ = next_.cell;
     return cell_ != kNone;
   }
@@ -91,6 +95,20 @@ class TetWalker {
     std::uint32_t id;
     ShearedPoint at;
   };
+
+  /// How many of the corners' numbers are below this one.
+  std::size_t rank(std::uint32_t id) const {
+    std::size_t below = 0;
+    for (const Corner& corner : corners_) below += corner.id < id ? 1 : 0;
+    return below;
+  }
+
+  void decide_compact(std::size_t out, std::size_t in) {
+    next_ = {mesh_.compact_cells[cell_].neighbor(out, in, previous_), 0};
+    if (next_.cell == kNone) return;
+    next_.apex =
+        mesh_.compact_cells[next_.cell].apex(corners_[0].id ^ corners_[1].id ^ corners_[2].id);
+  }
 
   static bool crosses_right(const Corner& a, const Corner& b) { return crossing(a.at, b.at) != 0; }
 
@@ -114,7 +132,7 @@ class TetWalker {
 
   const WalkableTets& mesh_;
   const ShearedFrame& frame_;
-  std::uint32_t cell_ = kNone;
+  std::uint32_t cell_ = kNone, previous_ = kNone;
   WalkableTets::Link next_{kNone, 0};
   // The triangle by which the ray came into the cell, and whether the edges across from its corners
   // cross y = 0 on the ray's right.

@@ -1,5 +1,6 @@
 #include "plume/tests/bench/packet_walker.h"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <cmath>
@@ -12,7 +13,8 @@
 namespace plume::bench {
 namespace {
 
-// Passages of one axis; a lane's start is made when it is asked for, as in a renderer.
+// Passages of one axis. Frames are made sixteen at a time, a lane's start when it is asked for, as
+// in a renderer.
 template <class Form>
 class PassageFeeder : public PacketFeeder {
  public:
@@ -23,22 +25,32 @@ class PassageFeeder : public PacketFeeder {
 
   const PacketStart* next(const PacketStart* finished) override {
     if (at_ == passages_.size()) return nullptr;
-    const std::uint32_t index = passages_[at_++];
-    const Passage& passage = view_.passages[index];
+    if (at_ % FrameLanes::kRays == 0) make_frames();
+    const std::uint32_t index = passages_[at_];
+    const Entry& entry = view_.passages[index].entry;
     // A lane's place is free again when its ray has finished.
     const std::size_t lane =
         finished ? static_cast<std::size_t>(static_cast<const Start*>(finished) - starts_.data())
                  : used_++;
-    frames_[lane].set(view_.rays[passage.ray], form_.frame);
-    set_start(starts_[lane], form_, frames_[lane], form_.boundary[passage.entry.boundary],
-              passage.entry.place, passage.entry.rank, index);
+    frames_[lane] = made_.frame(at_ % FrameLanes::kRays);
+    set_start(starts_[lane], form_, frames_[lane], form_.boundary[entry.boundary], entry.place,
+              entry.rank, index);
+    ++at_;
     return &starts_[lane];
   }
 
  private:
+  void make_frames() {
+    RayLanes rays;
+    const std::size_t end = std::min(at_ + FrameLanes::kRays, passages_.size());
+    for (std::size_t i = at_; i < end; ++i) rays.add(view_.rays[view_.passages[passages_[i]].ray]);
+    made_.set(rays, form_.frame);
+  }
+
   const Form& form_;
   const BenchView& view_;
   const std::vector<std::uint32_t>& passages_;
+  FrameLanes made_;
   std::array<Start, kMaxPacketLanes> starts_;
   std::array<ShearedFrame, kMaxPacketLanes> frames_;  // starts of grids refer to theirs
   std::size_t used_ = 0;

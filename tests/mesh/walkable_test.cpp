@@ -114,6 +114,33 @@ double enclosed(const WalkableTets& tets) {
   return sum;
 }
 
+// For every cell, from each of its faces: across every other face lies the neighbour that the whole
+// links name, and the apex is the point that they name.
+TEST(WalkableTets, CompactCellsSayOfTheirNeighborsWhatWholeLinksSay) {
+  for (const char* name : {"box-tetrahedra", "ball"}) {
+    const Mesh mesh = generate(name, {5, 0.2, 1});
+    const WalkableTets tets = tets_of(mesh);
+    const WalkableTets compact = make_walkable_tets(mesh, select_field(mesh), check_structure(mesh),
+                                                    false, false, TetLinks::compact);
+    EXPECT_EQ(sizeof(WalkableTets::CompactCell), 16u);
+    EXPECT_TRUE(compact.cells.empty());
+    ASSERT_EQ(compact.cell_count(), tets.cell_count());
+    EXPECT_EQ(compact.bytes(), 16 * tets.cell_count() + 16 * tets.points.size() +
+                                   sizeof(WalkableTets::Boundary) * tets.boundary.size());
+    EXPECT_EQ(connected_parts(compact), connected_parts(tets));
+    for (std::uint32_t c = 0; c < tets.cell_count(); ++c) {
+      const auto ids = tets.points_of(c);
+      const WalkableTets::CompactCell& cell = compact.compact_cells[c];
+      const std::uint32_t all = ids[0] ^ ids[1] ^ ids[2] ^ ids[3];
+      for (std::size_t in = 0; in < 4; ++in) {
+        EXPECT_EQ(cell.apex(all ^ ids[in]), ids[in]);
+        for (std::size_t out = 0; out < 4; ++out)
+          EXPECT_EQ(cell.neighbor(out, in, tets.cells[c][in].cell), tets.cells[c][out].cell);
+      }
+    }
+  }
+}
+
 TEST(WalkableTets, CellsListedBackwardsAreTurnedAround) {
   Mesh mesh = generate("box-tetrahedra", {4, 0.2, 1});
   std::vector<std::int32_t> ids;

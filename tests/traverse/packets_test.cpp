@@ -124,9 +124,13 @@ void expect_twins(const Mesh& user_mesh, const typename Walker::Mesh& mesh, std:
 constexpr double kTetLengthError = 8e-6;
 
 void expect_tet_twins(const Mesh& mesh, std::uint64_t rays) {
-  expect_twins<TetWalker>(
-      mesh, make_walkable_tets(mesh, select_field(mesh), check_structure(mesh), false), rays,
-      kTetLengthError);
+  for (const TetLinks links : {TetLinks::whole, TetLinks::compact}) {
+    SCOPED_TRACE(links == TetLinks::whole ? "whole links" : "compact cells");
+    expect_twins<TetWalker>(mesh,
+                            make_walkable_tets(mesh, select_field(mesh), check_structure(mesh),
+                                               false, false, links),
+                            rays, kTetLengthError);
+  }
 }
 
 TEST(TetPackets, TakeTheWayOfTheirTwinThroughCleanCells) {
