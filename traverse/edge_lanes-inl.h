@@ -25,18 +25,23 @@ HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
+#if HWY_TARGET == HWY_SCALAR
+template <class D>
+HWY_INLINE std::uint32_t XorOfLanes(D /*d*/, hn::Vec<D> v) {
+  return hn::GetLane(v);
+}
+#else
 template <class D>
 HWY_INLINE std::uint32_t XorOfLanes(D /*d*/, hn::Vec<D> v) {
   if constexpr (hn::MaxLanes(D()) > 4) {
     const hn::Half<D> half;
     return XorOfLanes(half, hn::Xor(hn::LowerHalf(half, v), hn::UpperHalf(half, v)));
-  } else if constexpr (hn::MaxLanes(D()) == 4) {
+  } else {
     v = hn::Xor(v, hn::Shuffle1032(v));
     return hn::GetLane(hn::Xor(v, hn::Shuffle2301(v)));
-  } else {
-    return hn::GetLane(v);
   }
 }
+#endif
 
 // A bit for each lane, moved up to where the lanes are.
 HWY_INLINE std::uint32_t BitsFrom(MF mask, std::size_t at) {
