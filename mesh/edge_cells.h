@@ -34,7 +34,8 @@ struct EdgeCells {
 inline constexpr std::uint32_t kMostEdgeCellCorners = 32;
 
 /// Records of the mesh's cells that are no CornerCell, of all where there are no corner_cells, in
-/// parallel: 4 bytes a cell, 4 more a record, 4 for each corner, edge and face of a cell. None of
+/// parallel: 4 bytes a cell, 4 more a record, 4 for each corner, edge and face (158 a cell of a
+/// honeycomb). None of
 /// cells with more than kMostEdgeCellCorners corners or faces or more than 255 edges; empty where
 /// no cell has one.
 EdgeCells make_edge_cells(const WalkableCells& mesh);
