@@ -102,7 +102,7 @@ class EachInstructionSet : public testing::Test {
 class Packets : public EachInstructionSet, public testing::WithParamInterface<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Each, Packets,
                          testing::Values("box-tetrahedra", "box-hexahedra", "twisted", "box-wedges",
-                                         "box-mixed", "box-rectilinear"),
+                                         "box-mixed", "box-polyhedra", "box-rectilinear"),
                          [](const auto& one) {
                            std::string name = one.param;
                            std::erase(name, '-');
@@ -159,7 +159,7 @@ Mesh slabs(const std::string& name) {
   const CellReader cells(mesh);
   std::vector<std::uint8_t> types;
   std::vector<std::int64_t> offsets{0};
-  std::vector<std::int64_t> kept;
+  std::vector<std::int64_t> kept, locations;
   std::vector<std::uint32_t> ids;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     cells.points(c, ids);
@@ -169,10 +169,13 @@ Mesh slabs(const std::string& name) {
     types.push_back(static_cast<std::uint8_t>(cells.type(c)));
     kept.insert(kept.end(), ids.begin(), ids.end());
     offsets.push_back(static_cast<std::int64_t>(kept.size()));
+    if (cells.type(c) == CellType::polyhedron)
+      locations.push_back(mesh.cells.polyhedron_locations.at<std::int64_t>(c));
   }
   mesh.cells.types = Array::own(std::move(types));
   mesh.cells.offsets = Array::own(std::move(offsets));
   mesh.cells.connectivity = Array::own(std::move(kept));
+  if (!locations.empty()) mesh.cells.polyhedron_locations = Array::own(std::move(locations));
   std::erase_if(mesh.fields, [](const Field& f) { return f.association == Association::cell; });
   return mesh;
 }
