@@ -25,6 +25,9 @@ struct Camera {
   /// Where the middle of the picture is, in halves of its width and height to the right of the line
   /// of sight and above it: off the middle for a part of a larger picture.
   std::array<double, 2> window_center{0, 0};
+
+  /// The same in every number.
+  bool operator==(const Camera&) const = default;
 };
 
 /// A camera that looks along `direction` at the centre of `bounds` and sees just all of them, with

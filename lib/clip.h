@@ -15,6 +15,9 @@ namespace plume {
 struct ClipPlane {
   std::array<double, 3> point{0, 0, 0};   ///< any of the plane
   std::array<double, 3> normal{0, 0, 1};  ///< of any length but zero
+
+  /// The same in every number.
+  bool operator==(const ClipPlane&) const = default;
 };
 
 /// The planes between which lies a box: only what is inside is kept.

@@ -63,7 +63,7 @@ template <class Walk>
 void CompositeBy(const PacketOptics& optics, const std::vector<float>& cell_values,
                  const Walk& walk) {
   const float* const values = cell_values.empty() ? nullptr : cell_values.data();
-  // Behind a transmittance of 1e-9 nothing changes a float between 0 and 1.
+  // Rays end where the closed form looks no further.
   const float enough = std::max(optics.early_termination, optics::kInvisible);
   if (optics.classified != nullptr)
     return WithTable(optics.classified->pieces.pieces, [&](const auto& table) {

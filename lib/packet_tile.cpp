@@ -85,10 +85,17 @@ class PacketTile<Walker>::Feeder : public PacketFeeder {
 
 template <class Walker>
 void PacketTile<Walker>::composite(PacketOptics optics) {
-  colors_.assign(size_, PacketColor{});
   visits_.assign(optics.classified != nullptr ? size_ : 0, PacketVisit{});
-  optics.colors = colors_;
   if (optics.classified != nullptr) optics.classified->visits = visits_;
+  walk_by([&](std::span<PacketColor> colors, int axis, PacketFeeder& feeder) {
+    optics.colors = colors;
+    composite_packets(mesh_, optics, axis, feeder);
+  });
+}
+
+template <class Walker>
+void PacketTile<Walker>::walk_by(const PacketWalkOfRays& walk) {
+  colors_.assign(size_, PacketColor{});
   for (std::size_t index = 0; index < size_; ++index) {
     TileRay& ray = rays_[index];
     const auto entry = ray.all_entries.first();
@@ -99,7 +106,7 @@ void PacketTile<Walker>::composite(PacketOptics optics) {
   }
   for (int axis = 0; axis < 3; ++axis) {
     Feeder feeder(*this, axis);
-    composite_packets(mesh_, optics, axis, feeder);
+    walk(colors_, axis, feeder);
   }
 }
 

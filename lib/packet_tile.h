@@ -3,7 +3,9 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "plume/lib/volume_packets.h"
@@ -19,6 +21,11 @@ struct PacketResult {
   /// The ray is left to trace().
   bool declined = false;
 };
+
+/// Walks the rays of a feeder, whose longest axis that is, and puts what became of each, by
+/// PacketStart::ray, into the colours: cells, z and opaque, and what it makes of the others.
+using PacketWalkOfRays =
+    std::function<void(std::span<PacketColor> colors, int axis, PacketFeeder& feeder)>;
 
 /// Rays of a tile: added sixteen by sixteen, then composited together. Reused from tile to tile.
 ///
@@ -42,6 +49,8 @@ class PacketTile {
   /// What the optics keep of each ray is the tile's. They number rays that meet the mesh, which is
   /// what ray() and distance() expect.
   void composite(PacketOptics optics);
+  /// The same with whatever is to be done with their segments.
+  void walk_by(const PacketWalkOfRays& walk);
 
   Ray ray(std::size_t index) const { return rays_[index].ray; }
   /// Of a place in the mesh's local frame, along the ray, in world units.
@@ -49,7 +58,8 @@ class PacketTile {
 
   /// Whether a ray meets the mesh; rays are counted in the order in which they were added.
   bool meets(std::size_t number) const { return places_[number] != kMisses; }
-  /// Of one that does.
+  /// Of one that does: its PacketStart::ray.
+  std::size_t index(std::size_t number) const { return places_[number]; }
   PacketResult result(std::size_t number) const;
 
  private:

@@ -1,23 +1,19 @@
 #include <tbb/enumerable_thread_specific.h>
 
-#include <array>
 #include <optional>
 #include <string>
 #include <type_traits>
 #include <variant>
 
 #include "plume/lib/classified_tiles.h"
-#include "plume/lib/packet_tile.h"
-#include "plume/lib/rectilinear_tile.h"
+#include "plume/lib/curved_packets.h"
+#include "plume/lib/packet_pixels.h"
 #include "plume/lib/render_plan.h"
 #include "plume/lib/volume_tiles.h"
 #include "plume/traverse/packets.h"
 
 namespace plume {
 namespace {
-
-template <class Walkable>
-using PacketTileOf = PacketTile<typename Walkable::Walker>;
 
 // Of one thread's tile.
 template <class Walkable>
@@ -42,6 +38,7 @@ class PacketTiles : public TileMaker {
   PacketTiles(Frame& frame, const Walkable& walkable, const ClosedForm& integrator,
               const PacketPieces& pieces)
       : frame_(frame),
+        walkable_(walkable),
         pieces_(pieces),
         twin_(frame, walkable, integrator),
         light_(frame, walkable),
@@ -51,42 +48,16 @@ class PacketTiles : public TileMaker {
 
   void make(const Tile& tile, Counts& counts) override {
     auto& packets = packets_.local();
-    packets.clear();
-    // Packets walk whole passages: rays that end inside are walked one by one.
-    std::array<PixelPlace, RayLanes::kRays> pixels;
-    std::size_t size = 0;
-    RayLanes rays;
-    auto add = [&] {
-      frame_.rays({pixels.data(), size}, rays);
-      packets.add(rays);
-      size = 0;
-    };
-    frame_.for_each_pixel(tile, [&](const PixelPlace& pixel) {
-      if (!frame_.sees_endlessly(pixel)) return twin_.make_pixel(pixel, counts);
-      pixels[size++] = pixel;
-      if (size == pixels.size()) add();
-    });
-    if (size > 0) add();
-    composite(packets, counts);
-    std::size_t ray = 0;
-    frame_.for_each_pixel(tile, [&](const PixelPlace& pixel) {
-      if (!frame_.sees_endlessly(pixel)) return;
-      const std::size_t number = ray++;
-      ++counts.in_packets;
-      if (!packets.meets(number)) return;  // pixels are empty from the start
-      const PacketResult result = packets.result(number);
-      if (result.declined) {
-        --counts.in_packets;
-        twin_.make_pixel(pixel, counts);
-        return;
-      }
-      counts.add(result.trace);
-      float* rgba = frame_.rgba(pixel);
-      rgba[0] = result.color.r;
-      rgba[1] = result.color.g;
-      rgba[2] = result.color.b;
-      rgba[3] = 1 - result.color.transmittance;
-    });
+    make_by_packets(
+        frame_, tile, packets, twin_, counts, [&] { composite(packets, counts); },
+        [&](const PixelPlace& pixel, const PacketResult& result, std::size_t) {
+          float* rgba = frame_.rgba(pixel);
+          rgba[0] = result.color.r;
+          rgba[1] = result.color.g;
+          rgba[2] = result.color.b;
+          rgba[3] = 1 - result.color.transmittance;
+        },
+        [](const PixelPlace&) {});  // pixels are empty from the start
   }
 
  private:
@@ -94,6 +65,7 @@ class PacketTiles : public TileMaker {
     PacketOptics optics;
     optics.early_termination = static_cast<float>(frame_.settings().early_termination);
     if (const auto* volume = std::get_if<PieceTable>(&pieces_)) {
+      if (!is_linear(frame_.scene(), frame_.settings())) return composite_curved(packets, *volume);
       optics.volume = volume;
       packets.composite(optics);
       return;
@@ -108,7 +80,23 @@ class PacketTiles : public TileMaker {
     counts.visits += classified.intervals_visited;
   }
 
+  void composite_curved(PacketTileOf<Walkable>& packets, const PieceTable& volume) const {
+    if constexpr (kCurvedPackets<Walkable>) {
+      const RenderSettings& settings = frame_.settings();
+      CurvedPackets curved{&volume,
+                           settings.order,
+                           static_cast<float>(frame_.tolerance()),
+                           static_cast<float>(settings.early_termination),
+                           {}};
+      packets.walk_by([&](std::span<PacketColor> colors, int axis, PacketFeeder& feeder) {
+        curved.colors = colors;
+        composite_curved_packets(walkable_.mesh, curved, axis, feeder);
+      });
+    }
+  }
+
   Frame& frame_;
+  const Walkable& walkable_;
   const PacketPieces& pieces_;
   Twin twin_;
   const SurfaceLight<Walkable> light_;
@@ -121,8 +109,7 @@ bool has_packets(const Scene& scene) {
   return std::visit(
       [](const auto& walkable) {
         using Walker = typename std::decay_t<decltype(*walkable)>::Walker;
-        if constexpr (std::is_same_v<Walker, CellWalker>)
-          return walkable->mesh.has_packets();
+        if constexpr (std::is_same_v<Walker, CellWalker>) return walkable->mesh.has_packets();
         if constexpr (std::is_same_v<Walker, RectilinearWalker>)
           return walked_by_packets(walkable->mesh);
         return true;
@@ -130,15 +117,30 @@ bool has_packets(const Scene& scene) {
       scene.body().walkable);
 }
 
+bool has_packets_of_order(const Scene& scene, const RenderSettings& settings) {
+  if (is_linear(scene, settings)) return true;
+  return (settings.order == ScalarOrder::quadratic || settings.order == ScalarOrder::cubic) &&
+         std::visit(
+             [](const auto& walkable) {
+               using Form = std::decay_t<decltype(*walkable)>;
+               // What is inside of a cell is read from its eight corners.
+               if constexpr (std::is_same_v<typename Form::Walker, CellWalker>)
+                 if (walkable->mesh.corner_cells.empty()) return false;
+               return kCurvedPackets<Form>;
+             },
+             scene.body().walkable);
+}
+
 std::optional<PacketPieces> pieces_for_packets(const Frame& frame) {
   const RenderSettings& settings = frame.settings();
   const bool served =
-      is_linear(frame.scene(), settings) && has_packets(frame.scene()) &&
+      has_packets_of_order(frame.scene(), settings) && has_packets(frame.scene()) &&
       settings.clip_planes.empty() && !settings.scalar_twin && settings.mode == Mode::volume &&
       settings.integrator.kind == IntegratorKind::closed_form && settings.channels.empty();
   if (!served) return std::nullopt;
   const Classification& classification = frame.scene().classification();
   if (!is_classified(frame.scene(), settings)) return PieceTable(frame.scene().transfer_function());
+  if (!is_linear(frame.scene(), settings)) return std::nullopt;
   if (settings.interval_way != IntervalWay::split) return std::nullopt;
   if (!classification.intervals.empty() && settings.interval_form != IntervalForm::exponential)
     return std::nullopt;

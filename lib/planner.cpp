@@ -5,14 +5,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+#include <memory>
 
 #include "plume/lib/pilot.h"
-#include "plume/lib/render_modes.h"
 #include "plume/lib/render_plan.h"
-#include "plume/lib/tiles.h"
+#include "plume/lib/spikes.h"
 
 namespace plume {
 namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
 
 // A way to follow the scalar, the cheaper ones first (docs/evidence.md has what they cost).
 struct Candidate {
@@ -29,8 +32,9 @@ constexpr std::array<Candidate, 9> kCandidates{{{ScalarOrder::linear, 1e-4},
                                                 {ScalarOrder::adaptive, 1e-4},
                                                 {ScalarOrder::adaptive, 1e-5},
                                                 {ScalarOrder::adaptive, 1e-6}}};
-// What is measured is taken so many times, for what was not looked at.
-constexpr double kSafety = 2;
+
+// Samples may miss what spikes do that are narrower than this share of the field's range.
+constexpr double kNarrow = 0.02;
 
 // Whether a pixel shows what one place on its ray is like: its error may be that of one cell, the
 // worst of which a sample of pixels does not find.
@@ -59,50 +63,242 @@ const char* name_of(ScalarOrder order) {
 
 bool has_optics(Mode mode) { return mode == Mode::volume || mode == Mode::optical_depth; }
 
-// Chooses the order, and how closely its segments are followed.
-void choose_order(const Scene& scene, const Camera& camera, RenderSettings& settings,
-                  double max_error, double allowed, bool choose_integrator,
-                  std::vector<std::string>& reasons) {
-  if (is_of_one_place(settings.mode)) {
-    settings.order = ScalarOrder::adaptive;
-    settings.scalar_tolerance = std::clamp(0.1 * max_error, 1e-6, 1e-4);
-    reasons.push_back(fmt::format(
-        "order of the scalar: adaptive, to {:.1g} of the field's range, as the error of a "
-        "pixel is that of one place, and samples do not find the worst",
-        settings.scalar_tolerance));
-    return;
+// Makes one plan.
+class Planner {
+ public:
+  Planner(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+          const ChosenOrder* before)
+      : scene_(scene),
+        camera_(camera),
+        asked_(*settings.tolerance),
+        before_(before),
+        has_orders_(!has_linear_cells(scene) && settings.mode != Mode::cell_count),
+        composites_(settings.mode == Mode::volume),
+        left_(asked_.max_error) {
+    plan_.settings = settings;
+    plan_.settings.tolerance.reset();
   }
-  const RenderSettings reference = reference_settings(settings, max_error);
-  Pilot pilot(scene, camera, reference);
-  std::string tried;
-  settings.order = ScalarOrder::adaptive;  // none tried yet
-  for (const Candidate& candidate : kCandidates) {
-    if (candidate.scalar_tolerance < reference.scalar_tolerance) continue;
-    // Whoever asks no optics sees no linear parts.
-    if (candidate.order == settings.order && candidate.order != ScalarOrder::adaptive &&
-        !has_optics(settings.mode))
-      continue;
-    settings.order = candidate.order;
-    settings.scalar_tolerance = candidate.scalar_tolerance;
-    RenderSettings whole = settings;
-    whole.early_termination = 0;  // it has a share of its own
-    const double error = kSafety * pilot.error_of(whole);
-    if (error <= allowed) {
-      reasons.push_back(fmt::format(
-          "order of the scalar: {}, at an error of {:.1g} (twice the greatest of {} pixels "
-          "compared with the reference){}",
-          name_of(candidate.order), error, pilot.pixels(), tried));
+
+  Plan make() {
+    if (asked_.max_error == 0) {
+      take_reference();
+    } else {
+      plan_.reasons.push_back(fmt::format("tolerance {:g} in each channel", asked_.max_error));
+      if (asked_.choose_integrator) choose_integrator();
+      if (composites_) choose_early_termination();
+      if (asked_.choose_order && has_orders_) choose_order();
+    }
+    if (is_to_be_measured()) measure_forced();
+    plan_.error = asked_.max_error - left_;
+    plan_.keeps = left_ >= 0;
+    return std::move(plan_);
+  }
+
+ private:
+  RenderSettings& settings() { return plan_.settings; }
+
+  // What the pilot finds; twice its estimate where that may have missed something.
+  PilotError look(Pilot& pilot, double enough = kInfinite) const {
+    PilotError error = pilot.error_of(compared(), enough);
+    if (has_narrow_spikes() && !error.all && error.found <= enough) error.estimate *= 2;
+    return error;
+  }
+
+  bool has_narrow_spikes() const {
+    const double range = static_cast<double>(scene_.field().high) - scene_.field().low;
+    return has_optics(plan_.settings.mode) && scene_.classification().volume &&
+           narrowest_spike(*scene_.classification().volume) < kNarrow * range;
+  }
+
+  std::string in_words(const PilotError& error) const {
+    if (error.all) return fmt::format("all {} pixels compared with the reference", error.pixels);
+    return fmt::format("by {} pixels compared with the reference, the worst of which has {:.1g}{}",
+                       error.pixels, error.found,
+                       has_narrow_spikes() ? ", doubled as extinction has narrow spikes" : "");
+  }
+
+  void take_reference() {
+    const RenderSettings reference = reference_settings(settings());
+    if (asked_.choose_order) {
+      settings().order = reference.order;
+      settings().scalar_tolerance = reference.scalar_tolerance;
+    }
+    if (asked_.choose_integrator) settings().integrator = reference.integrator;
+    if (asked_.choose_early_termination) settings().early_termination = reference.early_termination;
+    settings().scalar_twin = true;
+    plan_.reasons.push_back("tolerance 0: the reference");
+  }
+
+  void choose_integrator() {
+    settings().integrator = {};
+    if (!composites_) return;
+    const double color = greatest_color(scene_);
+    if (color * kScalarError > asked_.max_error / 4) {
+      settings().integrator = reference_settings(settings(), asked_.max_error).integrator;
+      settings().scalar_twin = true;
+      plan_.reasons.push_back(
+          fmt::format("integrator: the reference's, as the closed form's rounding may reach {:.1g}",
+                      color * kScalarError));
       return;
     }
-    tried += fmt::format("{} order {} has {:.1g}", tried.empty() ? ";" : ",",
-                         name_of(candidate.order), error);
+    const double by_packets =
+        color * (is_classified(scene_, settings()) ? kClassifiedPacketError : kPacketError);
+    settings().scalar_twin = settings().scalar_twin || by_packets > asked_.max_error / 4;
+    const double error = settings().scalar_twin ? color * kScalarError : by_packets;
+    left_ -= error;
+    plan_.reasons.push_back(
+        fmt::format("integrator: closed form, exact but for rounding: at most {:.1g}{}", error,
+                    settings().scalar_twin ? ", ray by ray in double" : ""));
   }
-  settings.order = reference.order;
-  settings.scalar_tolerance = reference.scalar_tolerance;
-  if (choose_integrator) settings.integrator = reference.integrator;
-  reasons.push_back(
-      "order of the scalar and integrator: the reference's, as nothing cheaper will do" + tried);
-}
+
+  void choose_early_termination() {
+    const double color = greatest_color(scene_);
+    if (!asked_.choose_early_termination) {
+      // A bound, where that is small enough; else it is measured, with all the rest.
+      const double bound = color * settings().early_termination;
+      measures_early_termination_ = bound > asked_.max_error / 2;
+      if (measures_early_termination_) return;
+      left_ -= bound;
+      plan_.reasons.push_back(
+          fmt::format("early termination: forced, at a transmittance of {:.2g}, a bound of {:.1g}",
+                      settings().early_termination, bound));
+      return;
+    }
+    const bool others = has_orders_ || !asked_.choose_integrator;
+    const double share = asked_.max_error * (others ? 0.1 : 0.5);
+    settings().early_termination = std::min(share / color, 0.5);
+    left_ -= share;
+    plan_.reasons.push_back(
+        fmt::format("early termination: at a transmittance of {:.2g}, a bound of {:.1g}",
+                    settings().early_termination, share));
+  }
+
+  // What is compared: early termination has a share of its own, as a rule.
+  RenderSettings compared() const {
+    RenderSettings settings = plan_.settings;
+    if (!measures_early_termination_) settings.early_termination = 0;
+    return settings;
+  }
+
+  // Candidates that make sense for this tolerance and mode, by their places in the list.
+  std::vector<std::size_t> candidates(double finest) const {
+    std::vector<std::size_t> list;
+    for (std::size_t i = 0; i < kCandidates.size(); ++i) {
+      if (kCandidates[i].scalar_tolerance < finest) continue;
+      const ScalarOrder order = kCandidates[i].order;
+      // Whoever asks no optics sees no linear parts.
+      const bool same = !list.empty() && kCandidates[list.back()].order == order &&
+                        order != ScalarOrder::adaptive && !has_optics(plan_.settings.mode);
+      if (!same) list.push_back(i);
+    }
+    return list;
+  }
+
+  void take(std::size_t candidate) {
+    settings().order = kCandidates[candidate].order;
+    settings().scalar_tolerance = kCandidates[candidate].scalar_tolerance;
+  }
+
+  // Chooses the order, and how closely its segments are followed.
+  void choose_order() {
+    if (is_of_one_place(settings().mode)) {
+      settings().order = ScalarOrder::adaptive;
+      settings().scalar_tolerance = std::clamp(0.1 * asked_.max_error, 1e-6, 1e-4);
+      plan_.reasons.push_back(fmt::format(
+          "order of the scalar: adaptive, to {:.1g} of the field's range, as the error of a "
+          "pixel is that of one place, and samples do not find the worst",
+          settings().scalar_tolerance));
+      return;
+    }
+    const RenderSettings reference = reference_settings(settings(), asked_.max_error);
+    if (before_ != nullptr && still_does(reference)) return;
+    Pilot pilot(scene_, camera_, reference);
+    std::string tried;
+    double cheaper = kInfinite;
+    for (const std::size_t candidate : candidates(reference.scalar_tolerance)) {
+      take(candidate);
+      const PilotError error = look(pilot, left_);
+      const char* name = name_of(settings().order);
+      if (error.estimate <= left_) {
+        plan_.order = ChosenOrder{candidate, error.estimate, error.found, cheaper};
+        left_ -= error.estimate;
+        plan_.reasons.push_back(fmt::format("order of the scalar: {}, at an error of {:.1g} ({}){}",
+                                            name, error.estimate, in_words(error), tried));
+        return;
+      }
+      cheaper = error.estimate;
+      tried += fmt::format("{} order {} has {}{:.1g}", tried.empty() ? ";" : ",", name,
+                           error.found > left_ ? "at least " : "", error.estimate);
+    }
+    settings().order = reference.order;
+    settings().scalar_tolerance = reference.scalar_tolerance;
+    if (asked_.choose_integrator) {
+      settings().integrator = reference.integrator;
+      settings().scalar_twin = true;
+    }
+    plan_.reasons.push_back(
+        fmt::format("order of the scalar{}: the reference's, as nothing cheaper will do{}",
+                    asked_.choose_integrator ? " and integrator" : "", tried));
+  }
+
+  // Whether what was chosen for another picture does for this one.
+  bool still_does(const RenderSettings& reference) {
+    take(before_->candidate);
+    Pilot pilot(scene_, camera_, reference, Pilot::Look::brief);
+    const PilotError error = look(pilot, left_);
+    const double estimate = std::max(before_->estimate, error.estimate);
+    if (estimate > left_) return false;
+    // Errors of orders rise and fall together, more or less: enough to tell what is worth a try.
+    if (2 * before_->cheaper * error.found < before_->found * left_) return false;
+    plan_.order = ChosenOrder{before_->candidate, estimate, before_->found, before_->cheaper};
+    left_ -= estimate;
+    plan_.reasons.push_back(fmt::format(
+        "order of the scalar: {}, as for an earlier picture, at an error of {:.1g} on all since "
+        "then (here {:.1g}, {})",
+        name_of(settings().order), estimate, error.estimate, in_words(error)));
+    return true;
+  }
+
+  // Whether something was forced that no bound above speaks of.
+  bool is_to_be_measured() const {
+    if (plan_.order) return false;  // with all that was forced besides
+    const bool order = has_orders_ && !asked_.choose_order;
+    const bool integrator =
+        composites_ && scene_.classification().volume && !asked_.choose_integrator;
+    const bool end = composites_ && !asked_.choose_early_termination &&
+                     (measures_early_termination_ || asked_.max_error == 0);
+    return order || integrator || end;
+  }
+
+  void measure_forced() {
+    if (asked_.max_error == 0) measures_early_termination_ = true;
+    Pilot pilot(scene_, camera_, reference_settings(settings(), asked_.max_error));
+    const PilotError error = look(pilot);
+    left_ -= error.estimate;
+    std::vector<std::string> forced;
+    if (!asked_.choose_order && has_orders_) forced.emplace_back("the order");
+    if (!asked_.choose_integrator && composites_) forced.emplace_back("the integrator");
+    if (!asked_.choose_early_termination && composites_) forced.emplace_back("early termination");
+    std::string names;
+    for (std::size_t i = 0; i < forced.size(); ++i)
+      names += (i == 0 ? "" : i + 1 == forced.size() ? " and " : ", ") + forced[i];
+    plan_.reasons.push_back(fmt::format(
+        "forced: {}, at an error of {:.1g} ({}){}{}", names, error.estimate, in_words(error),
+        is_of_one_place(settings().mode) && !error.all
+            ? "; in this mode samples do not find the worst"
+            : "",
+        left_ >= 0 ? "" : fmt::format("; THIS DOES NOT KEEP TO {:g}", asked_.max_error)));
+  }
+
+  const Scene& scene_;
+  const Camera& camera_;
+  const Tolerance asked_;
+  const ChosenOrder* const before_;
+  const bool has_orders_, composites_;
+  bool measures_early_termination_ = false;
+  double left_;  // of the tolerance
+  Plan plan_;
+};
 
 }  // namespace
 
@@ -117,79 +313,9 @@ RenderSettings reference_settings(RenderSettings settings, double max_error) {
   return settings;
 }
 
-RenderSettings plan_for(const Scene& scene, const Camera& camera, const RenderSettings& settings,
-                        std::vector<std::string>& reasons) {
-  const Tolerance& asked = *settings.tolerance;
-  const double max_error = asked.max_error;
-  RenderSettings plan = settings;
-  plan.tolerance.reset();
-  if (max_error == 0) {
-    const RenderSettings reference = reference_settings(settings);
-    if (asked.choose_order) {
-      plan.order = reference.order;
-      plan.scalar_tolerance = reference.scalar_tolerance;
-    }
-    if (asked.choose_integrator) plan.integrator = reference.integrator;
-    if (asked.choose_early_termination) plan.early_termination = reference.early_termination;
-    plan.scalar_twin = true;
-    reasons.push_back("tolerance 0: the reference");
-    return plan;
-  }
-  reasons.push_back(fmt::format("tolerance {:g} in each channel", max_error));
-  const double color = greatest_color(scene);
-  const bool composites = settings.mode == Mode::volume;
-  const bool look_for_order =
-      asked.choose_order && !has_linear_cells(scene) && settings.mode != Mode::cell_count;
-  double left = max_error;
-  if (asked.choose_integrator) plan.integrator = {};
-  if (composites && asked.choose_integrator) {
-    const double by_packets =
-        color * (is_classified(scene, settings) ? kClassifiedPacketError : kPacketError);
-    plan.scalar_twin = settings.scalar_twin || by_packets > max_error / 4;
-    const double error = plan.scalar_twin ? color * kScalarError : by_packets;
-    left -= error;
-    reasons.push_back(
-        fmt::format("integrator: closed form, exact but for rounding: at most {:.1g}{}", error,
-                    plan.scalar_twin ? ", ray by ray in double" : ""));
-  }
-  if (composites && asked.choose_early_termination) {
-    const double share = max_error * (look_for_order ? 0.25 : 0.5);
-    plan.early_termination = std::min(share / color, 0.5);
-    left -= share;
-    reasons.push_back(
-        fmt::format("early termination: at a transmittance of {:.2g}, a bound of {:.1g}",
-                    plan.early_termination, share));
-  }
-  if (look_for_order)
-    choose_order(scene, camera, plan, max_error, left, asked.choose_integrator, reasons);
-  return plan;
-}
-
-double shade_width(const RenderStatistics& statistics) {
-  if (!statistics.gray_range) return 0;
-  const auto& [low, high] = *statistics.gray_range;
-  return static_cast<double>(high) - low;
-}
-
-double greatest_difference(const Image& picture, const Image& reference, Mode mode, double width) {
-  double greatest = 0;
-  // What is no number in one of them alone differs by as much as can be.
-  auto take = [&](double a, double b, double unit) {
-    if (std::isnan(a) && std::isnan(b)) return;
-    const double difference = std::abs(a - b) / unit;
-    greatest = std::max(greatest, std::isnan(difference) ? 1.0 : difference);
-  };
-  const std::size_t count = reference.rgba.size() / 4;
-  for (std::size_t i = 0; i < 4 * count; ++i)
-    if (width == 0 || i % 4 == 3) take(picture.rgba[i], reference.rgba[i], 1);
-  if (width == 0) return greatest;
-  const char* const channel = in_words(mode).channel;
-  const auto& values = picture.channel(channel)->values;
-  const auto& right = reference.channel(channel)->values;
-  for (std::size_t i = 0; i < count; ++i)
-    if (reference.rgba[4 * i + 3] != 0 && picture.rgba[4 * i + 3] != 0)
-      take(values[i], right[i], width);
-  return greatest;
+Plan plan_for(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+              const ChosenOrder* before) {
+  return Planner(scene, camera, settings, before).make();
 }
 
 }  // namespace plume

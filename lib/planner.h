@@ -3,27 +3,33 @@
 /// What a picture's error is made of, and how each part of it is known:
 ///
 /// - **Early termination**: a bound. A ray that ends at a transmittance T is off by at most T in
-///   alpha and T times the greatest colour in a colour. It is given a quarter of the tolerance,
-///   half where nothing else is to be chosen.
+///   alpha and T times the greatest colour in a colour. It is given a tenth of the tolerance, half
+///   where nothing else is to be chosen.
 /// - **Integrator**: a bound. The closed form is exact up to rounding: kPacketError by packets,
-///   kScalarError ray by ray, which is taken where packets' is too much.
+///   kScalarError ray by ray, which is taken where packets' is too much. Where that is, too, the
+///   integrator is the reference's.
 /// - **Order of the scalar** in cells that are not tetrahedra: measured. A bound over what a cell's
 ///   corners allow is some hundred times what happens, for it cannot know that errors along a ray
 ///   cancel, and is infinite where a cell is degenerate. So candidates are compared with the
 ///   reference on this very picture: on a small version of all of it, and then, pixel by pixel, in
-///   windows around the places where the small version is worst. The greatest difference is taken
-///   twice. It is an estimate: tests/lib/planner_test.cpp and docs/evidence.md say how it fares.
+///   windows around the places where the small version is worst (see Pilot, whose estimate is
+///   taken). tests/lib/planner_test.cpp and docs/evidence.md say how it fares.
 ///   In the modes maximum, minimum and depth a pixel's error is that of one place, and no sample
 ///   finds the worst: there the order is adaptive, to a tenth of the tolerance in shares of the
 ///   field's range (1e-6 to 1e-4).
+/// - **What is forced** is measured likewise, and the plan says so where it does not keep to the
+///   tolerance.
 ///
 /// The reference is order `adaptive` at a thousandth of the tolerance, 1e-6 to 1e-5 of the field's
 /// range, by whole rays and adaptive quadrature. Where no candidate will do, it is the plan.
 #pragma once
 
+#include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "plume/lib/mode_difference.h"
 #include "plume/lib/render.h"
 
 namespace plume {
@@ -41,19 +47,39 @@ inline constexpr double kClassifiedPacketError = 4e-5;
 /// follows the cells' interpolation.
 RenderSettings reference_settings(RenderSettings settings, double max_error = 0);
 
-/// Settings without `tolerance`, chosen to keep to it, and the reasons, one choice a line, appended
-/// to `reasons`. Renders small pictures to find out, where the scalar is not linear in all cells.
+/// Which of the candidates for the order a plan takes, and what it is known by.
+struct ChosenOrder {
+  std::size_t candidate = 0;
+  /// Of the order's error, over all pictures on which it was looked at; and what was found when it
+  /// was chosen.
+  double estimate = 0, found = 0;
+  /// What the next cheaper candidate had then, at least; infinite where there is none.
+  double cheaper = 0;
+};
+
+/// What a tolerance came to.
+struct Plan {
+  RenderSettings settings;           ///< without a tolerance
+  std::vector<std::string> reasons;  ///< one choice a line
+  /// Of the greatest error of a channel: bounds and estimates, added up.
+  double error = 0;
+  /// Whether that is within what was asked: false only where something was forced. In the modes
+  /// maximum, minimum and depth at a forced order no sample shows that it is; then it says whether
+  /// samples do not show the contrary.
+  bool keeps = true;
+  /// Where one was looked for on samples.
+  std::optional<ChosenOrder> order;
+};
+
+/// Settings without `tolerance`, chosen to keep to it, and the reasons. Renders small pictures to
+/// find out, where the scalar is not linear in all cells or something is forced.
+///
+/// `before`: the order chosen for another picture of the same settings and look. It is looked at
+/// shortly on this picture, and taken where its error, on this and those before, is within what is
+/// asked; what is cheaper is tried again only where it may do by now.
+///
 /// Requires settings.tolerance, and what check_settings() lets pass.
-RenderSettings plan_for(const Scene& scene, const Camera& camera, const RenderSettings& settings,
-                        std::vector<std::string>& reasons);
-
-/// How far apart the numbers are that a picture shows as black and as white; 0 where it shows no
-/// shades of gray.
-double shade_width(const RenderStatistics& statistics);
-
-/// The greatest difference of a channel between two pictures of a mode: of linear RGBA where
-/// `width` is 0; else of the number in shares of `width` (see shade_width()), and of alpha.
-/// Requires the same sizes.
-double greatest_difference(const Image& picture, const Image& reference, Mode mode, double width);
+Plan plan_for(const Scene& scene, const Camera& camera, const RenderSettings& settings,
+              const ChosenOrder* before = nullptr);
 
 }  // namespace plume

@@ -28,12 +28,18 @@ class PacketTile<RectilinearWalker>::Feeder : public PacketFeeder {
 };
 
 void PacketTile<RectilinearWalker>::composite(PacketOptics optics) {
-  colors_.assign(rays_.size(), PacketColor{});
   visits_.assign(optics.classified != nullptr ? rays_.size() : 0, PacketVisit{});
-  optics.colors = colors_;
   if (optics.classified != nullptr) optics.classified->visits = visits_;
+  walk_by([&](std::span<PacketColor> colors, int, PacketFeeder& feeder) {
+    optics.colors = colors;
+    composite_packets(mesh_, optics, feeder);
+  });
+}
+
+void PacketTile<RectilinearWalker>::walk_by(const PacketWalkOfRays& walk) {
+  colors_.assign(rays_.size(), PacketColor{});
   Feeder feeder(*this);
-  composite_packets(mesh_, optics, feeder);
+  walk(colors_, 0, feeder);
 }
 
 PacketResult PacketTile<RectilinearWalker>::result(std::size_t ray) const {

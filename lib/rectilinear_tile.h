@@ -27,11 +27,14 @@ class PacketTile<RectilinearWalker> {
     for (std::size_t i = 0; i < rays.size; ++i) rays_.push_back({rays.ray(i)});
   }
   void composite(PacketOptics optics);
+  /// All rays with axis 0, which means nothing here.
+  void walk_by(const PacketWalkOfRays& walk);
 
   const Ray& ray(std::size_t index) const { return rays_[index].ray; }
   /// Of a place on the ray, `z` from where it comes in.
   double distance(std::size_t index, float z) const { return rays_[index].t_in + z; }
   bool meets(std::size_t ray) const { return rays_[ray].answer != RectilinearRay::misses; }
+  std::size_t index(std::size_t number) const { return number; }
   PacketResult result(std::size_t ray) const;
 
  private:

@@ -16,7 +16,8 @@ namespace plume {
 namespace {
 
 bool has_hierarchy(const Scene& scene) {
-  return scene.body().hierarchy.made() || scene.body().ranges.made();
+  return scene.body().hierarchy.made() || scene.body().clusters.made() ||
+         scene.body().ranges.made();
 }
 
 // On the threads of the arena that it is called in.
@@ -24,10 +25,16 @@ RenderResult render_here(const Scene& scene, const Camera& camera, const RenderS
                          const Progress& progress) {
   RenderResult result;
   std::vector<std::string> reasons;
-  const tbb::tick_count start = tbb::tick_count::now();
-  RenderSettings effective =
-      settings.tolerance ? plan_for(scene, camera, settings, reasons) : settings;
-  result.statistics.seconds_planning = (tbb::tick_count::now() - start).seconds();
+  RenderSettings effective = settings;
+  if (settings.tolerance) {
+    const tbb::tick_count start = tbb::tick_count::now();
+    Plan planned = scene.body().plans.get(scene, camera, settings);
+    result.statistics.seconds_planning = (tbb::tick_count::now() - start).seconds();
+    result.statistics.error_estimate = planned.error;
+    result.statistics.keeps_tolerance = planned.keeps;
+    effective = std::move(planned.settings);
+    reasons = std::move(planned.reasons);
+  }
   result.statistics.order = effective.order;
   Frame frame(scene, camera, effective);
   frame.set_opaque(find_opaque_pixels(frame));
@@ -39,22 +46,25 @@ RenderResult render_here(const Scene& scene, const Camera& camera, const RenderS
   plan = describe_plan(scene, effective);
   plan.insert(plan.begin(), reasons.begin(), reasons.end());
   const bool had_hierarchy = has_hierarchy(scene);
-  const auto why_walked = no_search(scene, effective);
   std::optional<PacketPieces> pieces = pieces_for_packets(frame);
-  frame.set_empty_space(find_empty_space(scene, effective, pieces.has_value(), plan));
-  if (frame.empty_space()) pieces.reset();
+  // Numbers in single precision, where that is no more than a share of what was asked for.
+  const bool single_will_do = !settings.tolerance || mode_packet_error(scene, effective.mode) <=
+                                                         settings.tolerance->max_error / 4;
+  bool by_packets = pieces || (single_will_do && has_mode_packets(frame));
+  const auto why_walked = no_search(scene, effective, by_packets);
+  frame.set_empty_space(find_empty_space(scene, effective, by_packets, plan));
+  by_packets = by_packets && !frame.empty_space();
   if (!why_walked)
-    plan.push_back(fmt::format(
-        "rays: through a hierarchy of cells ({}), as only {}",
-        scene.body().hierarchy.made() ? "made before" : "made for this picture",
-        is_classified(scene, settings) ? "isosurfaces are to be seen"
-                                       : "cells with a greater or lesser scalar need a look"));
+    plan.push_back(fmt::format("rays: through a hierarchy of cells ({}), as only {}",
+                               had_hierarchy ? "made before" : "made for this picture",
+                               is_classified(scene, settings)
+                                   ? "isosurfaces are to be seen"
+                                   : "cells with a greater or lesser scalar need a look"));
   else if (has_packets(scene) && !frame.empty_space())
     plan.push_back(
-        pieces ? fmt::format("rays: in packets, {}", packet_instruction_set())
-               : "rays: one by one (packets serve the volume mode by the closed form, "
-                 "at order 1, without tables or the linear form of intervals, clip planes and "
-                 "further channels)");
+        by_packets ? fmt::format("rays: in packets, {}", packet_instruction_set())
+                   : "rays: one by one (packets serve order 1, volumes by the closed form, without "
+                     "tables or the linear form of intervals, clip planes and further channels)");
   if (why_walked && is_classified(scene, settings) && !scene.classification().isosurfaces.empty())
     plan.push_back(fmt::format("rays: walked, not through a hierarchy of cells: {}", *why_walked));
   if (settings.mode == Mode::volume) {
@@ -75,7 +85,8 @@ RenderResult render_here(const Scene& scene, const Camera& camera, const RenderS
       is_classified(scene, settings) && settings.interval_way == IntervalWay::table;
   const auto maker = by_table                         ? table_tiles(frame)
                      : !why_walked                    ? searched_tiles(frame, integrator)
-                     : pieces                         ? packet_tiles(frame, integrator, *pieces)
+                     : by_packets && pieces           ? packet_tiles(frame, integrator, *pieces)
+                     : by_packets                     ? mode_packet_tiles(frame)
                      : is_classified(scene, settings) ? classified_tiles(frame, integrator)
                      : settings.mode != Mode::volume  ? mode_tiles(frame)
                                                       : volume_tiles(frame, integrator);

@@ -66,6 +66,9 @@ struct PixelWindow {
   int y = 0;       ///< of its first row
   int width = 1;   ///< columns, >= 1
   int height = 1;  ///< rows, >= 1
+
+  /// The same in every number.
+  bool operator==(const PixelWindow&) const = default;
 };
 
 /// An error to ask for, in the place of a method.
@@ -78,6 +81,14 @@ struct Tolerance {
   bool choose_order = true;
   bool choose_integrator = true;         ///< likewise
   bool choose_early_termination = true;  ///< likewise
+  /// Take the plan of an earlier picture of the scene: as it is where nothing has changed that it
+  /// was made from; after a short look at this picture where only the camera, the size, what is
+  /// opaque, the shades of gray or the field's values have (lib/kept_plans.h). False: what was
+  /// rendered before has no part in this picture.
+  bool keep_plans = true;
+
+  /// The same in every number.
+  bool operator==(const Tolerance&) const = default;
 };
 
 /// What a picture shows, by which methods, and how large it is.
@@ -121,9 +132,9 @@ struct RenderSettings {
   double early_termination = 1e-4;
   /// Threads to use, at most those there are; 0 for all. The picture is the same for any number.
   int threads = 0;
-  /// Walk ray by ray in plain scalar code where packets of rays or a hierarchy of cells would do:
-  /// for comparison. Packets take the same way through the mesh, and pictures differ by less than
-  /// 1e-5; those through the hierarchy not at all.
+  /// Plain scalar code, ray by ray, where packets or a hierarchy of cells would do: to compare.
+  /// Packets take the same way through the mesh; pictures differ by less than 1e-5, above order 1
+  /// also by what scalar_tolerance makes of the scalar; those by the hierarchy not at all.
   bool scalar_twin = false;
   /// Read where several scenes are rendered.
   Overlap overlap = Overlap::add;
@@ -139,6 +150,9 @@ struct RenderSettings {
   /// "normal.x" and so on) the direction in which it rises, of length one, in a scene that keeps
   /// gradients; NaN where there is no hit.
   std::vector<std::string> channels;
+
+  /// The same in every number.
+  bool operator==(const RenderSettings&) const = default;
 };
 
 /// Counts over all rays of a picture, and the plan.
@@ -160,6 +174,12 @@ struct RenderStatistics {
   /// Of several scenes: rays that met places in more than one mesh, before they ended.
   std::uint64_t rays_overlapping = 0;
   double seconds_planning = 0;  ///< spent on finding a plan for a tolerance
+  /// Where a tolerance is asked for: what the plan's greatest error is estimated at, bounds added
+  /// (see lib/planner.h for what is a bound and what is measured).
+  std::optional<double> error_estimate;
+  /// Whether that is within the tolerance, or none is asked for. False only where an order, an
+  /// integrator or early termination is forced that does not keep to it.
+  bool keeps_tolerance = true;
   /// The order that was taken: the settings', or the plan's.
   ScalarOrder order = ScalarOrder::linear;
   /// What a mode's numbers run from and to, in its channel's unit; nothing in the mode volume and

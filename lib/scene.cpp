@@ -211,7 +211,9 @@ void Scene::set_field(const Mesh& mesh, const FieldRequest& request) {
   body.sample = sample_for_map(read.field.values);
   body.default_map.reset();
   body.unit_distance.reset();
+  body.plans.scene_changed();
   body.hierarchy.reset();
+  body.clusters.reset();
   body.ranges.reset();
   take_words(body, read);
   std::visit(
@@ -296,11 +298,15 @@ bool Scene::has_gradients() const { return body_->gradients.has_value(); }
 void Scene::add_surface(OpaqueSurface surface) {
   if (const auto problem = surface.problem()) throw Error(*problem);
   if (surface.triangles.empty()) return;
+  body_->plans.scene_changed();
   body_->surfaces.push_back({OpaqueTriangles(surface.points, surface.triangles), surface.color,
                              std::move(surface.point_colors), std::move(surface.point_normals)});
 }
 
-void Scene::remove_surfaces() { body_->surfaces.clear(); }
+void Scene::remove_surfaces() {
+  body_->plans.scene_changed();
+  body_->surfaces.clear();
+}
 
 std::size_t Scene::surface_triangle_count() const {
   std::size_t count = 0;

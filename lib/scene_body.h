@@ -9,8 +9,10 @@
 #include <vector>
 
 #include "plume/lib/gradient_field.h"
+#include "plume/lib/kept_plans.h"
 #include "plume/lib/made_once.h"
 #include "plume/lib/scene.h"
+#include "plume/mesh/cell_clusters.h"
 #include "plume/mesh/cell_hierarchy.h"
 #include "plume/mesh/range_tree.h"
 #include "plume/preint/integrator_cache.h"
@@ -60,9 +62,12 @@ struct Scene::Body {
   Classification classification;
   std::optional<GradientField> gradients;
   mutable IntegratorCache integrators;  // a frame without a new transfer function builds no table
+  mutable KeptPlans plans;              // of tolerances
   std::vector<SceneSurface> surfaces;
-  /// Where a picture needs them: of tetrahedra, and of a rectilinear grid.
+  /// Where a picture needs them: of tetrahedra, of a grid or of cells of any kind, and of a
+  /// rectilinear grid.
   MadeOnce<CellHierarchy> hierarchy;
+  MadeOnce<CellClusters> clusters;
   MadeOnce<RangeTree> ranges;
 };
 

@@ -16,6 +16,9 @@ struct Light {
   /// ray.
   std::optional<std::array<double, 3>> direction;
   double intensity = 1;  ///< >= 0 and finite
+
+  /// The same in every number.
+  bool operator==(const Light&) const = default;
 };
 
 /// Phong's model with Blinn's half vector: on a surface of colour c,
@@ -30,6 +33,9 @@ struct Lighting {
   double exponent = 30;           ///< > 0
   /// Light intervals by the normal where the ray comes in, too.
   bool intervals = true;
+
+  /// The same in every number.
+  bool operator==(const Lighting&) const = default;
 
   /// What is wrong, in one line that names the value; nothing where all is well.
   std::optional<std::string> problem() const;

@@ -6,17 +6,21 @@
 #include <vector>
 
 #include "plume/lib/frame.h"
+#include "plume/traverse/cluster_cache.h"
 #include "plume/traverse/leaf_cache.h"
 #include "plume/traverse/ray_bundle.h"
 #include "plume/traverse/searched_ray.h"
 
 namespace plume {
 
-/// What each thread that searches a hierarchy has of its own; used again from tile to tile.
+/// What each thread that searches a hierarchy has of its own; used again from tile to tile. `Cache`
+/// is LeafCache or a ClusterCache.
+template <class Cache>
 class TileBundles {
  public:
-  TileBundles(const WalkableTets& mesh, const CellHierarchy& hierarchy)
-      : leaves(mesh, hierarchy), mesh_(mesh) {}
+  template <class Mesh, class Hierarchy>
+  TileBundles(const Mesh& mesh, const Hierarchy& hierarchy)
+      : leaves(mesh, hierarchy), local_(mesh.frame) {}
 
   struct TileRay {
     PixelPlace place{};
@@ -37,7 +41,7 @@ class TileBundles {
       TileRay& added = rays_[size_++];
       added.place = place;
       added.ray = frame.ray(place);
-      added.valid = added.frame.set(added.ray, mesh_.frame);
+      added.valid = added.frame.set(added.ray, local_);
     });
     std::size_t first = 0;
     auto finish = [&] {
@@ -59,13 +63,13 @@ class TileBundles {
     finish();
   }
 
-  LeafCache leaves;
+  Cache leaves;
   RayBundle bundle;
   std::array<SearchedRay, RayBundle::kRays> found;
   std::array<float, RayBundle::kRays> values{};
 
  private:
-  const WalkableTets& mesh_;
+  const LocalFrame& local_;
   std::vector<TileRay> rays_;  // the first size_: what there is is used again as it is
   std::size_t size_ = 0;
 };

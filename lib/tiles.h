@@ -29,7 +29,8 @@ std::unique_ptr<TileMaker> volume_tiles(Frame& frame, const Integrator& integrat
 using PacketPieces = std::variant<PieceTable, ClassifiedPieces>;
 
 /// The pieces with which packets can render this frame, or nothing where they cannot: they serve
-/// the mode volume, linear segments, the closed form, the exponential form of intervals, no clip
+/// the mode volume, linear segments (of curvilinear grids and mixed cells also quadratic and cubic
+/// ones, where the volume is alone), the closed form, the exponential form of intervals, no clip
 /// planes and no further channels.
 std::optional<PacketPieces> pieces_for_packets(const Frame& frame);
 
@@ -40,14 +41,15 @@ std::unique_ptr<TileMaker> packet_tiles(Frame& frame, const Integrator& integrat
 /// Scenes with intervals or isosurfaces, in the modes volume and depth.
 std::unique_ptr<TileMaker> classified_tiles(Frame& frame, const Integrator& integrator);
 
-/// Scenes with isosurfaces alone, and the modes maximum and minimum, of tetrahedra, through a
-/// hierarchy of cells; rays that it declines are walked. The same picture as by classified_tiles()
-/// or mode_tiles(), bit for bit. Requires !no_search(...). Makes the hierarchy where the scene has
-/// none yet.
+/// Scenes with isosurfaces alone, and the modes maximum and minimum, through a hierarchy of cells;
+/// rays that it declines are walked. The same picture as by classified_tiles() or mode_tiles(), bit
+/// for bit. Requires !no_search(...). Makes the hierarchy where the scene has none yet.
 std::unique_ptr<TileMaker> searched_tiles(Frame& frame, const Integrator& integrator);
 
-/// Why a picture is not made through a hierarchy of cells; nothing where it is.
-std::optional<std::string> no_search(const Scene& scene, const RenderSettings& settings);
+/// Why a picture is not made through a hierarchy of cells; nothing where it is. Where packets would
+/// do (`by_packets`), small meshes of other cells than tetrahedra are left to them.
+std::optional<std::string> no_search(const Scene& scene, const RenderSettings& settings,
+                                     bool by_packets);
 
 /// Scenes with intervals or isosurfaces in the mode volume, by IntervalWay::table.
 std::unique_ptr<TileMaker> table_tiles(Frame& frame);
@@ -55,7 +57,21 @@ std::unique_ptr<TileMaker> table_tiles(Frame& frame);
 /// The modes that show one number a ray.
 std::unique_ptr<TileMaker> mode_tiles(Frame& frame);
 
+/// Whether packets can make those modes' pictures: of a volume alone, without clip planes and
+/// further channels, of segments of the orders that there are packets for.
+bool has_mode_packets(const Frame& frame);
+
+/// By how much a channel of such a picture may differ from that made in double: numbers by 1e-5 of
+/// the field's range or of the picture's greatest (mode_packets.h; plume_frame_bench --modes), and
+/// their colours as the transfer function makes of that.
+double mode_packet_error(const Scene& scene, Mode mode);
+
+/// The same pictures by packets of rays. Requires has_mode_packets(frame).
+std::unique_ptr<TileMaker> mode_packet_tiles(Frame& frame);
+
 /// Whether there are packets for what the scene is walked as.
 bool has_packets(const Scene& scene);
+/// And whether they are for the scalar's order, of a scene that has them.
+bool has_packets_of_order(const Scene& scene, const RenderSettings& settings);
 
 }  // namespace plume

@@ -16,10 +16,8 @@ namespace plume {
 struct LeafCells {
   alignas(64) float position[3][4][kLeafCells];
   alignas(64) float scalar[4][kLeafCells];
-  /// One bit a cell: see WalkableTets::odd_bits; whether it has a face at the boundary.
-  unsigned odd = 0, boundary = 0;
-  /// Of each cell: one bit for each face at the boundary, by the rank of the point it leaves out.
-  std::array<std::uint8_t, kLeafCells> open_faces{};
+  /// One bit a cell: see WalkableTets::odd_bits.
+  unsigned odd = 0;
 
   /// The least and greatest of each cell's four values; infinity and -infinity where all are NaN.
   static void bound(const float (&values)[4][kLeafCells], float* least, float* greatest) {
@@ -34,32 +32,16 @@ struct LeafCells {
       }
   }
 
-  /// Reads the cells whose bit is set in `wanted`; the others keep what was there. `face` is the
-  /// leaf's CellHierarchy::Leaf::first_boundary.
-  void read(const WalkableTets& mesh, std::uint32_t leaf, std::size_t face,
-            unsigned wanted = 0xFFFF) {
+  /// Reads the cells whose bit is set in `wanted`; the others keep what was there.
+  void read(const WalkableTets& mesh, std::uint32_t leaf, unsigned wanted = 0xFFFF) {
     odd &= ~wanted;
-    boundary &= ~wanted;
     const auto last = static_cast<std::uint32_t>(mesh.cell_count() - 1);
     for (std::uint32_t place = 0; place < kLeafCells; ++place) {
       if ((wanted >> place & 1) == 0) continue;
       const std::uint32_t cell =
           std::min(last, leaf * static_cast<std::uint32_t>(kLeafCells) + place);
       odd |= (mesh.is_odd(cell) ? 1u : 0u) << place;
-      while (face < mesh.boundary.size() && mesh.boundary[face].cell < cell) ++face;
-      std::array<std::uint32_t, 4> points;
-      open_faces[place] = 0;
-      if (face < mesh.boundary.size() && mesh.boundary[face].cell == cell) {
-        const WalkableTets::Boundary& side = mesh.boundary[face];
-        points = {side.loop[0], side.loop[1], side.loop[2], side.apex};
-        std::sort(points.begin(), points.end());
-        boundary |= 1u << place;
-        for (unsigned r = 0; r < 4; ++r)
-          if (mesh.cells[cell][r].cell == kNone)
-            open_faces[place] = static_cast<std::uint8_t>(open_faces[place] | 1u << r);
-      } else {
-        points = mesh.points_of(cell);
-      }
+      const auto points = mesh.points_of(cell);
       for (std::size_t i = 0; i < 4; ++i) {
         const WalkablePoint& p = mesh.points[points[i]];
         for (std::size_t a = 0; a < 3; ++a) position[a][i][place] = p.position[a];

@@ -18,6 +18,9 @@ struct IntervalVolume {
   /// Optics over w = (scalar - low) / (high - low) in [0, 1]; extinction is per unit of w. A ray
   /// that crosses the interval sees 1 - exp(-integral of the extinction over [0, 1]) of it.
   TransferFunction profile;
+
+  /// The same in every number.
+  bool operator==(const IntervalVolume&) const = default;
 };
 
 /// All of space where the scalar has one value: an interval volume of no width.
@@ -27,6 +30,9 @@ struct Isosurface {
   float opacity = 1;
   /// Linear RGB (Rec. 709 primaries), >= 0.
   std::array<float, 3> color{1, 1, 1};
+
+  /// The same in every number.
+  bool operator==(const Isosurface&) const = default;
 };
 
 /// The optics of a scalar field, in up to three parts over the scalar axis. Source: Ament,
@@ -40,6 +46,9 @@ struct Classification {
   std::optional<TransferFunction> volume;  ///< nothing: no volume is seen
   std::vector<IntervalVolume> intervals;   ///< in any order
   std::vector<Isosurface> isosurfaces;     ///< in any order
+
+  /// The same in every number.
+  bool operator==(const Classification&) const = default;
 
   /// What is wrong, in one line that names the values and the remedy; nothing where all is well:
   /// the volume and the profiles have no problem (see TransferFunction), profiles have their knots

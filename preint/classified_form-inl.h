@@ -40,9 +40,6 @@ struct Visits {
   VU surfaces, visits;
 };
 
-// What lies behind a transparency of this changes no float between 0 and 1.
-constexpr float kInvisible = 1e-9f;
-
 // Where light falls on what is composited: factors on its colour, and highlights.
 struct Lit {
   VF factor, highlight;

@@ -2,13 +2,15 @@
 // included after hwy/foreach_target.h alone.
 //
 // The same integral as ClosedForm (closed_form.h), in single precision. A segment is walked from
-// knot to knot; a part of an optical depth above 1 is cut further, so that two polynomials serve.
-// With m the part's optical depth and d half of the difference between the depths that its back and
-// its front optics would give alone, for m <= 1 and |d| <= m:
+// knot to knot; a part of an optical depth above 2 is cut further, so that polynomials serve. With
+// m the part's optical depth and d half of the difference between the depths that its back and its
+// front optics would give alone, for m <= 2 and |d| <= m:
 //     alpha = 1 - exp(-m) = m A(m)
-//     chi = psi - exp(-m) = m X0(m) + d X1(m) + d^2 X2(m) + ... + d^5 X5(m)
+//     chi = psi - exp(-m) = m X0(m) + d X1(m) + d^2 X2(m) + ... + d^7 X7(m)
 // as the transparency so far is exp(-m u) exp(d u (1 - u)), of which the second factor is expanded.
-// Fitted at Chebyshev nodes: A to 2e-9 relative, chi to 8e-8 absolute.
+// Fitted at Chebyshev nodes: A to 1e-9 relative, chi to 9e-8 absolute. Lanes whose m is
+// at most 1, in most meshes all, are given shorter ones of the same errors: A to 2e-9, chi (up to
+// d^5) to 8e-8.
 //
 // Max error of a segment: 1e-6 times the largest colour, and 1e-6 for alpha, for any transfer
 // function whose extinction is at most 1e18 and any length; 6e-7 is the largest that
@@ -45,6 +47,9 @@ using VF = hn::Vec<DF>;
 using VU = hn::Vec<DU>;
 using MF = hn::Mask<DF>;
 
+// What lies behind a transparency of half of the last place of floats below 1 is not worth a look.
+constexpr float kInvisible = 0x1p-25f;
+
 // Front-to-back sums of the lanes' rays.
 struct Sums {
   VF r, g, b, transmittance;
@@ -79,6 +84,38 @@ HWY_INLINE VF Chi(VF m, VF d) {
   const VF x4 = Horner(m, 6.609377066e-05f, -3.227347494e-05f, 6.789842466e-06f);
   const VF x5 = Horner(m, 2.964161757e-06f, -1.158061818e-06f);
   VF sum = hn::MulAdd(x5, d, x4);
+  sum = hn::MulAdd(sum, d, x3);
+  sum = hn::MulAdd(sum, d, x2);
+  sum = hn::MulAdd(sum, d, x1);
+  return hn::MulAdd(sum, d, hn::Mul(x0, m));
+}
+
+// 1 - exp(-m) for m in [0, 2].
+HWY_INLINE VF AbsorbedFarther(VF m) {
+  return hn::Mul(m, Horner(m, 9.999999995e-01f, -4.999999606e-01f, 1.666661380e-01f,
+                           -4.166392097e-02f, 8.326138674e-03f, -1.378184669e-03f, 1.888878189e-04f,
+                           -1.968693803e-05f, 1.148025996e-06f));
+}
+
+// psi - exp(-m) for m in [0, 2], |d| <= m.
+HWY_INLINE VF ChiFarther(VF m, VF d) {
+  const VF x0 = Horner(m, 4.999999996e-01f, -3.333332977e-01f, 1.249995226e-01f, -3.333085395e-02f,
+                       6.937946388e-03f, -1.180805539e-03f, 1.650018808e-04f, -1.741917869e-05f,
+                       1.023611181e-06f);
+  const VF x1 = Horner(m, 1.666666658e-01f, -8.333327825e-02f, 2.499941713e-02f, -5.553188422e-03f,
+                       9.872938196e-04f, -1.435024139e-04f, 1.591221117e-05f, -9.971479238e-07f);
+  const VF x2 = Horner(m, 1.666666544e-02f, -8.333273154e-03f, 2.380465807e-03f, -4.945408448e-04f,
+                       8.046129416e-05f, -9.840097438e-06f, 6.792967449e-07f);
+  const VF x3 = Horner(m, 1.190474788e-03f, -5.951874622e-04f, 1.650439589e-04f, -3.240814560e-05f,
+                       4.584000514e-06f, -3.597877008e-07f);
+  const VF x4 = Horner(m, 6.613629427e-05f, -3.303683614e-05f, 8.887799123e-06f, -1.560166198e-06f,
+                       1.454143869e-07f);
+  const VF x5 = Horner(m, 3.005356531e-06f, -1.488663272e-06f, 3.669013556e-07f, -4.339337153e-08f);
+  const VF x6 = Horner(m, 1.151494714e-07f, -5.345672262e-08f, 9.024000355e-09f);
+  const VF x7 = Horner(m, 3.673825703e-09f, -1.169713532e-09f);
+  VF sum = hn::MulAdd(x7, d, x6);
+  sum = hn::MulAdd(sum, d, x5);
+  sum = hn::MulAdd(sum, d, x4);
   sum = hn::MulAdd(sum, d, x3);
   sum = hn::MulAdd(sum, d, x2);
   sum = hn::MulAdd(sum, d, x1);
@@ -156,6 +193,7 @@ HWY_INLINE void Composite(const Table& pieces, MF active, VF s_in, VF s_out, VF 
   const VF zero = hn::Zero(d);
   const VF half = hn::Set(d, 0.5f);
   const VF one = hn::Set(d, 1.0f);
+  const VF two = hn::Set(d, 2.0f);
   const VU one_piece = hn::Set(du, 1);
   const VF most = hn::Set(d, std::numeric_limits<float>::max());
   active = hn::And(active, hn::And(hn::Le(hn::Abs(s_in), most), hn::Le(hn::Abs(s_out), most)));
@@ -202,17 +240,21 @@ HWY_INLINE void Composite(const Table& pieces, MF active, VF s_in, VF s_out, VF 
     VF mean = hn::Mul(hn::Add(front, back), half_left);
     VF difference = hn::Mul(hn::Sub(back, front), half_left);
     VF next = target;
-    const MF deep = hn::And(active, hn::Gt(mean, one));
-    if (HWY_UNLIKELY(!hn::AllFalse(d, deep))) {
-      // As far as an optical depth of 1: front h + growth h^2 / 2 = 1.
-      const VF growth = hn::Div(hn::Sub(back, front), left);
-      const VF root = hn::Sqrt(hn::Max(zero, hn::MulAdd(front, front, hn::Add(growth, growth))));
-      const VF h = hn::Min(left, hn::Div(hn::Set(d, 2.0f), hn::Add(front, root)));
-      const VF cut = hn::MulAdd(hn::Sub(target, offset), hn::Div(h, left), offset);
+    const MF far = hn::And(active, hn::Gt(mean, one));
+    const MF deep = hn::And(active, hn::Gt(mean, two));
+    const bool any_far = !hn::AllFalse(d, far);
+    if (HWY_UNLIKELY(any_far && !hn::AllFalse(d, deep))) {
+      // As far as an optical depth of 2: front h + growth h^2 / 2 = 2.
+      const VF rate = hn::Div(hn::Sub(target, offset), left);  // of the scalar
+      const VF growth = hn::Mul(slope, rate);
+      const VF four = hn::Set(d, 4.0f);
+      const VF root = hn::Sqrt(hn::Max(zero, hn::MulAdd(front, front, hn::Mul(four, growth))));
+      const VF h = hn::Min(left, hn::Div(four, hn::Add(front, root)));
+      const VF cut = hn::MulAdd(rate, h, offset);
       const VF bent = hn::Mul(hn::Mul(half, growth), hn::Mul(h, h));
       next = hn::IfThenElse(deep, cut, next);
-      mean = hn::IfThenElse(deep, one, mean);
-      difference = hn::IfThenElse(deep, hn::Max(hn::Neg(one), hn::Min(one, bent)), difference);
+      mean = hn::IfThenElse(deep, two, mean);
+      difference = hn::IfThenElse(deep, hn::Max(hn::Neg(two), hn::Min(two, bent)), difference);
       left = hn::IfThenElse(deep, hn::Sub(left, h), left);
     }
     // Where no lane meets any extinction, as in the clear ranges of most transfer functions, no
@@ -221,9 +263,19 @@ HWY_INLINE void Composite(const Table& pieces, MF active, VF s_in, VF s_out, VF 
     if (!hn::AllFalse(d, seen)) {
       const Record color = pieces.template four<1>(piece);
       const Record color_slope = pieces.template four<2>(piece);
-      const VF weight = hn::Mul(sums.transmittance, Absorbed(mean));
-      const VF turn =
-          hn::Mul(hn::Mul(sums.transmittance, Chi(mean, difference)), hn::Sub(next, offset));
+      // Which polynomials a lane is given depends on that lane alone: a ray looks the same whatever
+      // rays share its packet.
+      VF taken = zero, turned = zero;
+      if (HWY_LIKELY(!any_far || !hn::AllFalse(d, hn::AndNot(far, active)))) {
+        taken = Absorbed(mean);
+        turned = Chi(mean, difference);
+      }
+      if (HWY_UNLIKELY(any_far)) {
+        taken = hn::IfThenElse(far, AbsorbedFarther(mean), taken);
+        turned = hn::IfThenElse(far, ChiFarther(mean, difference), turned);
+      }
+      const VF weight = hn::Mul(sums.transmittance, taken);
+      const VF turn = hn::Mul(hn::Mul(sums.transmittance, turned), hn::Sub(next, offset));
       // Lanes that are done may hold anything: their polynomials overflow.
       auto add = [&](VF& sum, VF value, VF value_slope) {
         const VF with_front = hn::MulAdd(weight, hn::MulAdd(offset, value_slope, value), sum);
@@ -237,8 +289,7 @@ HWY_INLINE void Composite(const Table& pieces, MF active, VF s_in, VF s_out, VF 
     }
 
     active = hn::And(active, hn::Or(deep, hn::Not(last)));
-    // What lies behind a transparency of 1e-9 changes no float between 0 and 1.
-    active = hn::And(active, hn::Gt(sums.transmittance, hn::Set(d, 1e-9f)));
+    active = hn::And(active, hn::Gt(sums.transmittance, hn::Set(d, kInvisible)));
     if (HWY_LIKELY(hn::AllFalse(d, active))) return;
     const MF moves = hn::AndNot(deep, active);
     const VU stride = hn::IfThenElse(hn::RebindMask(du, rising), one_piece, hn::Set(du, ~0u));

@@ -17,6 +17,9 @@ struct IntervalTableSettings {
   int scalar_count = 256;
   /// Entries along the axis of lengths, which is logarithmic, >= 2.
   int length_count = 16;
+
+  /// The same in every number.
+  bool operator==(const IntervalTableSettings&) const = default;
 };
 
 }  // namespace plume

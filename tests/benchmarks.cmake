@@ -59,6 +59,7 @@ add_executable(plume_frame_bench
   bench/empty_space_frames.cpp
   bench/hierarchy_frames.cpp
   bench/interval_frames.cpp
+  bench/mode_frames.cpp
   bench/order_frames.cpp
   bench/peer_frames.cpp
   bench/scalar_error.cpp
@@ -69,6 +70,8 @@ target_link_libraries(plume_frame_bench PRIVATE plume_bench_walkers plume_isopar
   plume_vtk_frames fmt::fmt)
 add_test(NAME "bench: the frames compared with VTK's are of the same thing"
          COMMAND plume_frame_bench --peers --size=48 --rounds=1)
+add_test(NAME "bench: modes by packets are the twin's"
+         COMMAND plume_frame_bench --modes --size=32 --rounds=1)
 add_test(NAME "bench: frames of hexahedra are of the same thing as of tetrahedra, and nearer by order"
          COMMAND plume_frame_bench --hexahedra --size=32 --rounds=1)
 add_test(NAME "bench: what passes over empty space sees what a walk through it sees"

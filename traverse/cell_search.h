@@ -8,9 +8,6 @@
 #include <span>
 #include <vector>
 
-#include "plume/mesh/cell_hierarchy.h"
-#include "plume/mesh/walkable_tets.h"
-#include "plume/traverse/leaf_cache.h"
 #include "plume/traverse/ray_bundle.h"
 #include "plume/traverse/searched_ray.h"
 
@@ -39,22 +36,29 @@ enum class CellKey : std::uint8_t { place, least, greatest };
 /// walker's operations. What a walk knows besides, from the way to the cell, is checked as far as
 /// it may matter, and the ray declined where it may:
 ///
-/// - A place is never before the one that came before it. So it is in cells that are not special,
+/// - A place is never before the one that came before it. So it is in cells that are not special
+/// (thin tetrahedra, crooked cells),
 ///   but for rounding, which is looked into where the ray comes by an edge; all special cells that
 ///   the ray goes through are looked at, and each must go forward.
 /// - A walk begins at the boundary, and passages do not overlap: SearchedRay::finish().
 ///
+/// `Cache` is LeafCache, of tetrahedra, or ClusterCache<Walker>, of a grid or of cells of any kind,
+/// whose segments are those of order 1.
+///
 /// Requires a scalar on points. `isovalues` are finite, ascending and different; `found` has a
 /// place for each ray. Passages closer than `connected`, in world units, count as one.
-void find_isosurfaces(LeafCache& leaves, std::span<const SoughtIsovalue> isovalues,
-                      double connected, RayBundle& bundle, std::span<SearchedRay> found);
+template <class Cache>
+void find_isosurfaces(Cache& leaves, std::span<const SoughtIsovalue> isovalues, double connected,
+                      RayBundle& bundle, std::span<SearchedRay> found);
 
 /// The greatest scalar on each ray, or the least: of those on the faces of all cells that a walk
 /// goes through, bit for bit; -infinity, or infinity, where a ray has none. `found` says which rays
 /// are declined, for the reasons above.
-void find_greatest(LeafCache& leaves, RayBundle& bundle, std::span<SearchedRay> found,
+template <class Cache>
+void find_greatest(Cache& leaves, RayBundle& bundle, std::span<SearchedRay> found,
                    std::span<float> values);
-void find_least(LeafCache& leaves, RayBundle& bundle, std::span<SearchedRay> found,
+template <class Cache>
+void find_least(Cache& leaves, RayBundle& bundle, std::span<SearchedRay> found,
                 std::span<float> values);
 
 }  // namespace plume

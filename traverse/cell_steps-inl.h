@@ -82,8 +82,7 @@ class CellSteps {
     return packet.cell;
   }
 
-  template <class AnyPacket>
-  HWY_INLINE void Prefetch(const State&, const AnyPacket&) const {}
+  HWY_INLINE void Prefetch(const State&) const {}
 
   template <bool kMeasure>
   HWY_INLINE StepResult Step(State& state, Packet<kMeasure>& packet) const {
@@ -116,7 +115,7 @@ class CellSteps {
       odd_bits = hn::Or(odd_bits, hn::ShiftLeftSame(hn::ShiftRight<31>(hn::BitCast(du, odd[f])),
                                                     static_cast<int>(f)));
       strange = hn::Or(strange, WindsTwice(crosses[e[0]], crosses[e[1]], crosses[e[2]], right[e[0]],
-                                           right[e[1]], right[e[2]]));
+                                           right[e[1]], right[e[2]], right[e[3]]));
     }
     strange = hn::Or(strange, Grazed(corner, crosses, product, odd));
 

@@ -1,4 +1,4 @@
-/// What bundles of rays do with tetrahedra that may hold the greatest scalar on them, or the least.
+/// What bundles of rays do with cells that may hold the greatest scalar on them, or the least.
 #pragma once
 
 #include <algorithm>
@@ -9,20 +9,20 @@
 #include <span>
 
 #include "plume/traverse/cell_search.h"
-#include "plume/traverse/tet_passage.h"
+#include "plume/traverse/searched_cells.h"
 
 namespace plume {
 
 /// A target of two passes: over the boundary, which shows the rays that miss the mesh, and over the
 /// cells inside. Its keys are the greatest value of a cell times -1, or the least: cells that may
 /// have a better one come first, and none follows whose key is not below what was found.
-template <bool kGreatest>
+template <class Cells, bool kGreatest>
 class ExtremeTarget {
  public:
   static constexpr CellKey kKey = kGreatest ? CellKey::greatest : CellKey::least;
 
-  ExtremeTarget(const WalkableTets& mesh, const RayBundle& bundle, std::span<SearchedRay> found)
-      : mesh_(mesh), bundle_(bundle), found_(found) {
+  ExtremeTarget(const Cells& cells, const RayBundle& bundle, std::span<SearchedRay> found)
+      : cells_(cells), bundle_(bundle), found_(found) {
     limits_.fill(-kInfinity);
     std::fill_n(limits_.begin(), bundle.size(), kInfinity);
     for (std::size_t ray = 0; ray < bundle.size(); ++ray) found[ray].clear();
@@ -32,38 +32,31 @@ class ExtremeTarget {
   const float* limits() const { return limits_.data(); }
   float limit() const { return *std::max_element(limits_.begin(), limits_.end()); }
 
-  void go_through(std::size_t index, const TetCell& cell) {
+  void go_through(std::size_t index, const typename Cells::Cell& cell) {
     const ShearedFrame& frame = bundle_.frame(index);
     SearchedRay& ray = found_[index];
-    const TetPassage passage(cell, frame);
-    if (passage.ways() == TetPassage::Ways::none) return;
-    ray.count();
-    if (passage.ways() == TetPassage::Ways::two) return decline(index);
-    const Crossing in = passage.in(), out = passage.out();
-    if (!(frame.t(in.z) <= frame.t(out.z))) return decline(index);
-    // fmax() passes over NaN.
-    const float best =
-        kGreatest ? -std::fmax(in.scalar, out.scalar) : std::fmin(in.scalar, out.scalar);
-    limits_[index] = std::fmin(limits_[index], best);
+    auto pass = [&](const Crossing& in, const Crossing& out, const auto& /*comes_from_before*/) {
+      ray.count();
+      if (!(frame.t(in.z) <= frame.t(out.z))) return false;
+      // fmax() passes over NaN.
+      const float best =
+          kGreatest ? -std::fmax(in.scalar, out.scalar) : std::fmin(in.scalar, out.scalar);
+      limits_[index] = std::fmin(limits_[index], best);
+      return true;
+    };
+    if (cells_.pass_through(cell, bundle_.ray(index), frame, pass)) return;
+    ray.decline();
+    limits_[index] = -kInfinity;
   }
 
-  void cross_boundary(std::size_t index, const TetCell& cell) {
-    const ShearedFrame& frame = bundle_.frame(index);
-    const TetPassage passage(cell, frame);
-    if (passage.ways() == TetPassage::Ways::none) return;
-    if (passage.ways() == TetPassage::Ways::two) return decline(index);
-    SearchedRay& ray = found_[index];
-    const WalkableTets::Cell& links = mesh_.cells[cell.cell];
-    auto cross = [&](const Crossing& place, bool in) {
-      ray.cross_boundary(frame.t(place.z), place.scalar, in);
-    };
-    if (links[passage.in_face()].cell == kNone) cross(passage.in(), true);
-    if (links[passage.out_face()].cell == kNone) cross(passage.out(), false);
+  void cross_boundary(std::size_t index, std::uint32_t face) {
+    cells_.cross_boundary(face, bundle_.frame(index), found_[index]);
+    if (found_[index].declined()) limits_[index] = -kInfinity;
   }
 
   /// After the pass over the boundary. Passages that rounding may have overlap are walked.
   void boundary_done() {
-    const SearchedRay::Gaps gaps{kRounding / mesh_.frame.scale, 0};
+    const SearchedRay::Gaps gaps{kSearchRounding / cells_.frame().scale, 0};
     for (std::size_t index = 0; index < bundle_.size(); ++index) {
       found_[index].finish(bundle_.ray(index), kInfinity, gaps, [](float, float) { return true; });
       if (found_[index].declined() || found_[index].entries() == 0) limits_[index] = -kInfinity;
@@ -77,15 +70,9 @@ class ExtremeTarget {
   }
 
  private:
-  static constexpr double kRounding = 0x1p-20;  // as in IsosurfaceTarget
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-  void decline(std::size_t index) {
-    found_[index].decline();
-    limits_[index] = -kInfinity;
-  }
-
-  const WalkableTets& mesh_;
+  const Cells& cells_;
   const RayBundle& bundle_;
   std::span<SearchedRay> found_;
   alignas(64) std::array<float, RayBundle::kRays> limits_;

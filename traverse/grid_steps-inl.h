@@ -12,6 +12,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 
 #include "hwy/highway.h"
 #include "plume/mesh/walkable_grid.h"
@@ -36,7 +37,7 @@ HWY_INLINE VU LookUp(const std::uint32_t* HWY_RESTRICT table, VU place) {
 
 // GridWalker's leave() and advance(), a ray a lane (see PacketWalk), for hexahedra that have one
 // way in and one out; lanes whose cell has more, or may have (a face that is crossed twice), ask
-// the scalar walker for that step.
+// the scalar walker for the face that they leave by.
 //
 // A cell is seen from the face by which the ray comes in, the front: its corners 0 to 3 go around
 // it, corner m of the back is joined to corner m of the front, and side m has the corners m and
@@ -44,6 +45,10 @@ HWY_INLINE VU LookUp(const std::uint32_t* HWY_RESTRICT table, VU place) {
 // number of its edges crosses y = 0 on the ray's right. The front does, so one of the back and the
 // sides does, or three, or all. The face left by is the next cell's front: corners and edges that
 // it keeps keep their places, so that its loop winds about the ray in the same direction.
+//
+// Most of what is asked are excursions: out of the cell by a twisted face that the ray grazes, into
+// the cell behind it, and back by the same face. They are asked for once: both places where the
+// face is crossed and the face left by in the end are known from then on.
 class GridSteps {
  public:
   using Start = GridStart;
@@ -63,9 +68,25 @@ class GridSteps {
     HWY_ALIGN std::uint32_t v[kMaxLanes];
     HWY_ALIGN std::uint32_t ahead[kMaxLanes];
     HWY_ALIGN std::uint32_t index[3][kMaxLanes];
-    HWY_ALIGN float winding[kMaxLanes];  // of the front's loop about the ray; its sign counts
-    std::uint32_t rank[kMaxLanes];
+    // Of the front's loop about the ray, or of that crossing alone where there are two; its sign
+    // counts.
+    HWY_ALIGN float winding[kMaxLanes];
+    // Which of the front's crossings it is (see pair_crossings.h); known where there are two.
+    HWY_ALIGN std::uint32_t rank[kMaxLanes];
     const ShearedFrame* frame[kMaxLanes];
+
+    // Of the excursion that a lane whose front is grazed is on; the cell is kNone where nothing is
+    // known of it.
+    HWY_ALIGN std::uint32_t excursion_cell[kMaxLanes];  // that it left and will come back to
+    HWY_ALIGN std::uint32_t excursion_exit[kMaxLanes];  // the face by which it leaves that then
+    HWY_ALIGN float excursion_z[kMaxLanes];             // where it comes back
+    HWY_ALIGN float excursion_s[kMaxLanes];
+
+    // What Decide() found: the face that a lane leaves by (kNowhere: by none), and where, if that
+    // is known.
+    HWY_ALIGN std::uint32_t exit[kMaxLanes] = {};
+    HWY_ALIGN float exit_z[kMaxLanes] = {};
+    HWY_ALIGN float exit_s[kMaxLanes] = {};
   };
 
   template <bool kMeasure>
@@ -151,8 +172,7 @@ class GridSteps {
     return CellAt(packet.index);
   }
 
-  template <class AnyPacket>
-  HWY_INLINE void Prefetch(const State& state, const AnyPacket&) const {
+  HWY_INLINE void Prefetch(const State& state) const {
     for (const auto& corner : state.back_by_2) HWY_NAMESPACE::Prefetch(points_, corner);
   }
 
@@ -197,21 +217,20 @@ class GridSteps {
     for (std::size_t m = 0; m < 4; ++m)
       side[m] = Xor3(right[m], right_across[m], hn::Xor(right_across[(m + 1) % 4], right_along[m]));
 
-    // Lanes that this step does not hold for: the front winds an even number of times, or several
-    // sides wind, or a face has, or may have, two crossings.
+    // Lanes in which it is not clear by which face the ray leaves: the front winds an even number
+    // of times, or several sides wind, or a face has, or may have, two crossings (`doubtful`).
     VF several = hn::And(side[0], side[1]);
     several = hn::Or(several, hn::And(hn::Or(side[0], side[1]), side[2]));
     several = hn::Or(several, hn::And(hn::Or(hn::Or(side[0], side[1]), side[2]), side[3]));
     const VF odd = Xor3(right[0], right[1], hn::Xor(right[2], right[3]));
-    VF strange = hn::Or(several, hn::Not(odd));
     VF before[4];  // the front's edges: do they cross y = 0?
     for (std::size_t m = 0; m < 4; ++m) before[m] = hn::Xor(p.y[m], p.y[(m + 1) % 4]);
-    strange = hn::Or(strange, WindsTwice(along[0], along[1], along[2], right_along[0],
-                                         right_along[1], right_along[2]));
+    VF doubtful = WindsTwice(along[0], along[1], along[2], right_along[0], right_along[1],
+                             right_along[2], right_along[3]);
     for (std::size_t m = 0; m < 4; ++m) {
       const std::size_t n = (m + 1) % 4;
-      strange = hn::Or(strange, WindsTwice(before[m], across[n], along[m], right[m],
-                                           right_across[n], right_along[m]));
+      doubtful = hn::Or(doubtful, WindsTwice(before[m], across[n], along[m], right[m],
+                                             right_across[n], right_along[m], right_across[m]));
     }
     if (twisted_) {
       // Faces with all corners on one side of y = 0 (or in one place) are not crossed.
@@ -219,10 +238,28 @@ class GridSteps {
       VF side_crosses[4];
       for (std::size_t m = 0; m < 4; ++m)
         side_crosses[m] = Or3(before[m], across[(m + 1) % 4], along[m]);
-      strange = hn::Or(strange, Grazed(p, q, side, products, back_crosses, side_crosses));
+      doubtful = hn::Or(doubtful, Grazed(p, q, odd, side, products, back_crosses, side_crosses));
     }
+    const VF strange = Or3(several, hn::Not(odd), doubtful);
 
-    const VU index[3] = {packet.index[0], packet.index[1], packet.index[2]};
+    StepResult result;
+    result.left = hn::MaskFromVec(hn::Zero(d));
+    MF measured = result.left;
+    const VU opposite = hn::Set(du, 1);
+    if (HWY_UNLIKELY((BitsOf(MaskOfBits(strange)) & state.live) != 0)) {
+      const VF others = Or3(hn::Or(side[0], side[1]), hn::Or(side[2], side[3]), doubtful);
+      measured = Decide(state, packet, strange, hn::Not(odd), hn::Not(hn::Or(odd, others)));
+      const VU exit = hn::Load(du, state.exit);
+      auto leaves_by = [&](VU face) {
+        return hn::VecFromMask(d, hn::RebindMask(d, hn::Eq(exit, face)));
+      };
+      const VU face[4] = {hn::Xor(packet.v, opposite), packet.u, packet.v,
+                          hn::Xor(packet.u, opposite)};
+      for (std::size_t m = 0; m < 4; ++m) side[m] = Choose(strange, leaves_by(face[m]), side[m]);
+      result.left = MaskOfBits(hn::And(strange, leaves_by(hn::Set(du, kNowhere))));
+      TurnAround(packet, hn::And(strange, leaves_by(hn::Xor(packet.ahead, opposite))), q,
+                 right_along);
+    }
 
     // The front of the next cell: the back, or side m, whose corners m and m + 1 stay.
     const VF stay[4] = {hn::Or(side[3], side[0]), hn::Or(side[0], side[1]),
@@ -252,7 +289,6 @@ class GridSteps {
     }
     for (std::size_t m = 0; m < 4; ++m) packet.right[m] = next_right[m];
 
-    const VU opposite = hn::Set(du, 1);
     const VU u_by_2 = LookUp(stride_by_2_, packet.u);
     const VU v_by_2 = LookUp(stride_by_2_, packet.v);
     const VU ahead_by_2 = LookUp(stride_by_2_, packet.ahead);
@@ -265,27 +301,22 @@ class GridSteps {
     packet.ahead = Choose(
         side[0], hn::Xor(v, opposite),
         Choose(side[1], u, Choose(side[2], v, Choose(side[3], hn::Xor(u, opposite), ahead))));
-    auto left = hn::MaskFromVec(hn::Zero(du));
+    auto left = hn::RebindMask(du, result.left);
     for (std::size_t a = 0; a < 3; ++a) {
       packet.index[a] = hn::Add(packet.index[a], LookUp(move_[a], packet.ahead));
       left = hn::Or(left, hn::Gt(packet.index[a], hn::Set(du, mesh_.dimensions[a] - 2)));
     }
     StoreBack(state, packet);
 
-    StepResult result;
     result.left = hn::RebindMask(d, left);
     if (HWY_UNLIKELY(!mesh_.hidden.empty()))
       result.left = hn::Or(result.left, Hidden(state, packet, result.left));
-    MF asks = MaskOfBits(strange);
-    if constexpr (kMeasure)
-      asks = hn::Or(asks, MeasurePatch(p, hn::Load(d, state.winding), result.z, result.s));
-    const unsigned asking = BitsOf(asks) & state.live;
-    if (HWY_UNLIKELY(asking != 0)) {
-      HWY_ALIGN std::uint32_t cell[kMaxLanes];
-      HWY_ALIGN std::uint32_t from[kMaxLanes];
-      hn::Store(CellAt(index), du, cell);
-      hn::Store(hn::Xor(ahead, opposite), du, from);
-      AskWalker(state, packet, asking, cell, from, result);
+    if constexpr (kMeasure) {
+      const MF beside = MeasurePatch(p, hn::Load(d, state.winding), result.z, result.s);
+      result.z = hn::IfThenElse(measured, hn::Load(d, state.exit_z), result.z);
+      result.s = hn::IfThenElse(measured, hn::Load(d, state.exit_s), result.s);
+      const unsigned asking = BitsOf(hn::AndNot(measured, beside)) & state.live;
+      if (HWY_UNLIKELY(asking != 0)) MeasureAgain(state, packet, asking, result);
     }
     return result;
   }
@@ -303,11 +334,12 @@ class GridSteps {
   };
 
   // Lanes in which a face other than the front of even winding may be crossed twice all the same.
-  // `odd_sides` are those of odd winding, and `..._crosses` tells where any edge crosses y = 0.
+  // `odd_front` and `odd_sides` are of odd winding; `..._crosses` tells where any edge crosses
+  // y = 0.
   template <bool kMeasure>
   static HWY_INLINE VF Grazed(const QuadLanes<kMeasure>& p, const QuadLanes<kMeasure>& q,
-                              const VF (&odd_sides)[4], const Products& products, VF back_crosses,
-                              const VF (&side_crosses)[4]) {
+                              VF odd_front, const VF (&odd_sides)[4], const Products& products,
+                              VF back_crosses, const VF (&side_crosses)[4]) {
     const DF d;
     VF x = hn::Zero(d), y = hn::Zero(d);
     for (std::size_t m = 0; m < 4; ++m) {
@@ -318,7 +350,7 @@ class GridSteps {
     const auto product = GrazeTest::Product;
     const VF* const k = products.with_next;
     const VF back_odd =
-        hn::Not(hn::Xor(hn::Xor(odd_sides[0], odd_sides[1]), hn::Xor(odd_sides[2], odd_sides[3])));
+        Xor3(odd_front, hn::Xor(odd_sides[0], odd_sides[1]), hn::Xor(odd_sides[2], odd_sides[3]));
     const VF back_passed = test.PassedBy(k[0], hn::Neg(k[2]), hn::Neg(k[3]), k[1],
                                          product(q.x[0], q.y[0], q.x[2], q.y[2]),
                                          product(q.x[1], q.y[1], q.x[3], q.y[3]));
@@ -379,6 +411,7 @@ class GridSteps {
       state.right[m][lane] = crosses != 0 ? -1.0f : 1.0f;
       winding += crosses;
     }
+    if (winding == 0) winding = start.rank == 0 ? 1 : -1;
     state.winding[lane] = winding < 0 ? -1.0f : 1.0f;
     const std::uint32_t first = 2 * start.first;
     const std::uint32_t u = stride_by_2_[start.u], v = stride_by_2_[start.v];
@@ -394,28 +427,116 @@ class GridSteps {
     for (std::size_t a = 0; a < 3; ++a) state.index[a][lane] = start.index[a];
     state.rank[lane] = start.rank;
     state.frame[lane] = start.frame;
+    state.excursion_cell[lane] = kNone;
   }
 
-  // Takes the step of some lanes over from the scalar walker. `cell` and `from` are the cell and
-  // the face by which the ray came into it.
+  // Finds the faces that the `strange` lanes leave by. `grazed`: lanes whose front has even
+  // winding; `alone`: those that cross no other face either. Returned are the lanes of which it is
+  // known where they leave.
   template <bool kMeasure>
-  HWY_NOINLINE void AskWalker(State& state, Packet<kMeasure>& packet, unsigned asking,
-                              const std::uint32_t* cell, const std::uint32_t* from,
-                              StepResult& result) const {
-    AskedLanes<kMeasure> asked(result);
-    packet.Store(state);
+  HWY_INLINE MF Decide(State& state, const Packet<kMeasure>& packet, VF strange, VF grazed,
+                       VF alone) const {
+    const DF d;
+    const DU du;
+    const VU cell = CellAt(packet.index), from = hn::Xor(packet.ahead, hn::Set(du, 1));
+    const VU left_cell = hn::Load(du, state.excursion_cell);
+    // Behind the grazed face: back by it. In front of it again: out for good.
+    const MF back =
+        hn::And(MaskOfBits(alone), hn::RebindMask(d, hn::Ne(left_cell, hn::Set(du, kNone))));
+    const MF again = hn::And(MaskOfBits(grazed), hn::RebindMask(d, hn::Eq(left_cell, cell)));
+    const auto again_u = hn::RebindMask(du, again);
+    hn::Store(hn::IfThenElse(again_u, hn::Load(du, state.excursion_exit), from), du, state.exit);
+    const VU other = hn::IfThenElseZero(hn::RebindMask(du, back), hn::Set(du, 1));
+    const VU rank = hn::IfThenZeroElse(again_u, hn::Load(du, state.rank));
+    hn::Store(hn::Xor(rank, other), du, state.rank);
+    hn::Store(hn::Load(d, state.excursion_z), d, state.exit_z);
+    hn::Store(hn::Load(d, state.excursion_s), d, state.exit_s);
+    const MF asks = hn::AndNot(hn::Or(back, again), MaskOfBits(strange));
+    const unsigned asking = BitsOf(asks) & state.live;
+    if (asking != 0) AskWalkers(state, asking, cell, from);
+    const MF nowhere = hn::RebindMask(d, hn::Eq(hn::Load(du, state.exit), hn::Set(du, kNowhere)));
+    return hn::AndNot(hn::Or(again, nowhere), MaskOfBits(strange));
+  }
+
+  // Asks the scalar walker for the faces by which lanes leave their cells, having come `from`
+  // those.
+  HWY_NOINLINE void AskWalkers(State& state, unsigned asking, VU cells, VU from) const {
+    const DU du;
+    HWY_ALIGN std::uint32_t cell[kMaxLanes], face[kMaxLanes];
+    hn::Store(cells, du, cell);
+    hn::Store(from, du, face);
     for (; asking != 0; asking &= asking - 1) {
       const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(asking);
-      const ShearedFrame& frame = *state.frame[lane];
-      GridWalker walker(mesh_, frame);
-      walker.enter({cell[lane], from[lane]}, state.rank[lane]);
-      if (!asked.ask(lane, walker)) continue;
-      GridStart next;
-      set_place(next, mesh_, frame, walker.cell(), walker.face(), walker.rank());
-      PutPlace(state, lane, next);
+      GridWalker walker(mesh_, *state.frame[lane]);
+      walker.enter({cell[lane], face[lane]}, state.rank[lane]);
+      std::optional<GridWalker::Excursion> excursion;
+      const std::optional<Crossing> exit = walker.leave(&excursion);
+      state.exit[lane] = kNowhere;
+      state.excursion_cell[lane] = kNone;
+      // There always is a way out; without one the ray would end here, as at the boundary.
+      if (!exit) continue;
+      state.exit[lane] = walker.face();
+      state.rank[lane] = walker.rank();
+      state.exit_z[lane] = static_cast<float>(exit->z);
+      state.exit_s[lane] = exit->scalar;
+      if (!excursion) continue;
+      state.excursion_cell[lane] = cell[lane];
+      state.excursion_exit[lane] = excursion->exit_face;
+      state.excursion_z[lane] = static_cast<float>(excursion->back.z);
+      state.excursion_s[lane] = excursion->back.scalar;
     }
-    packet.Load(state);
-    asked.put(result);
+  }
+
+  // Has the scalar walker measure where lanes have come through their fronts.
+  template <bool kMeasure>
+  HWY_NOINLINE void MeasureAgain(const State& state, const Packet<kMeasure>& packet,
+                                 unsigned asking, StepResult& result) const {
+    const DF d;
+    const DU du;
+    HWY_ALIGN std::uint32_t cell[kMaxLanes], face[kMaxLanes];
+    HWY_ALIGN float z[kMaxLanes], s[kMaxLanes];
+    VU index[3];  // of the cell before
+    for (std::size_t a = 0; a < 3; ++a)
+      index[a] = hn::Sub(packet.index[a], LookUp(move_[a], packet.ahead));
+    hn::Store(CellAt(index), du, cell);
+    hn::Store(packet.ahead, du, face);
+    hn::Store(result.z, d, z);
+    hn::Store(result.s, d, s);
+    for (; asking != 0; asking &= asking - 1) {
+      const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(asking);
+      GridWalker walker(mesh_, *state.frame[lane]);
+      walker.enter({cell[lane], face[lane]}, 0);
+      const Crossing place = walker.crossing_of(face[lane]);
+      z[lane] = static_cast<float>(place.z);
+      s[lane] = place.scalar;
+    }
+    result.z = hn::Load(d, z);
+    result.s = hn::Load(d, s);
+  }
+
+  // Makes the front the back of lanes that leave by it: the cell as seen from behind, where the
+  // loop's direction turns as well.
+  template <bool kMeasure>
+  HWY_INLINE void TurnAround(Packet<kMeasure>& packet, VF turned, QuadLanes<kMeasure>& back,
+                             VF (&right_along)[4]) const {
+    const DU du;
+    const QuadLanes<kMeasure>& front = packet.front;
+    for (std::size_t m = 0; m < 4; ++m) {
+      const std::size_t other = (4 - m) % 4;
+      back.x[m] = Choose(turned, front.x[other], back.x[m]);
+      back.y[m] = Choose(turned, front.y[other], back.y[m]);
+      if constexpr (kMeasure) {
+        back.z[m] = Choose(turned, front.z[other], back.z[m]);
+        back.s[m] = Choose(turned, front.s[other], back.s[m]);
+      }
+      right_along[m] = Choose(turned, packet.right[3 - m], right_along[m]);
+    }
+    const VU u = packet.u, behind = hn::Xor(packet.ahead, hn::Set(du, 1));
+    packet.u = Choose(turned, packet.v, u);
+    packet.v = Choose(turned, u, packet.v);
+    packet.ahead = Choose(turned, behind, packet.ahead);
+    packet.first_by_2 =
+        hn::Sub(packet.first_by_2, Choose(turned, LookUp(stride_by_2_, behind), hn::Zero(du)));
   }
 
   const WalkableGrid& mesh_;

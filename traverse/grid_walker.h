@@ -37,9 +37,7 @@ class BasicGridWalker {
   void ways_in(const Boundary& boundary, const Visit& visit) const {
     const std::uint32_t first = mesh_.first_point(boundary.cell);
     std::array<ShearedPoint, 4> p;
-    for (std::size_t i = 0; i < 4; ++i)
-      p[i] = frame_(mesh_.points[first + step_[kCornerLoop[boundary.face][i]]]);
-    const Quad quad{p[0], p[1], p[2], p[3]};
+    const Quad quad = corners_of(first, boundary.face, p);
     const bool planar = is_planar(first, boundary.face);
     const QuadCrossings crossings = Faces::crossings(quad, winding(quad), planar);
     for (std::uint32_t rank = 0; rank < 2; ++rank)
@@ -60,7 +58,15 @@ class BasicGridWalker {
   std::uint32_t face() const { return face_; }
   std::uint32_t rank() const { return rank_; }
 
-  std::optional<Crossing> leave() {
+  /// Out of the cell by a face that the ray grazes, and in again by the same.
+  struct Excursion {
+    Crossing back;            ///< where it comes back into the cell
+    std::uint32_t exit_face;  ///< by which it leaves for good
+  };
+
+  /// Sets `excursion`, where there is one, if it begins one: in a cell that has one more way in and
+  /// one more way out, which has odd winding, and no others.
+  std::optional<Crossing> leave(std::optional<Excursion>* excursion = nullptr) {
     std::array<ShearedPoint, 8> corner;
     for (std::size_t c = 0; c < 8; ++c) corner[c] = frame_(mesh_.points[first_ + step_[c]]);
     auto quad = [&](std::size_t face) {
@@ -75,13 +81,23 @@ class BasicGridWalker {
       count += std::abs(winding.of(f));
       exit_face = outwards(f) * winding.of(f) > 0 ? f : exit_face;
     }
-    if (count != 2 || any_grazed(winding, quad)) return leave_one_of_several(winding, quad);
+    const std::uint32_t grazed = first_grazed(winding, quad);
+    if (count != 2 || grazed < 6) return leave_one_of_several(winding, quad, grazed, excursion);
     const bool planar = is_planar(first_, exit_face);
     const Quad through = quad(exit_face);
     const QuadCrossings only = Faces::crossings(through, winding.of(exit_face), planar);
     const std::uint32_t rank = only.direction[0] == 0 ? 1 : 0;
     return left_through(exit_face, rank,
                         Faces::measure(through, only, static_cast<int>(rank), planar));
+  }
+
+  /// Where the ray crosses a face of the cell of odd winding.
+  Crossing crossing_of(std::uint32_t face) const {
+    std::array<ShearedPoint, 4> p;
+    const Quad quad = corners_of(first_, face, p);
+    const bool planar = is_planar(first_, face);
+    const QuadCrossings only = Faces::crossings(quad, winding(quad), planar);
+    return Faces::measure(quad, only, only.direction[0] == 0 ? 1 : 0, planar);
   }
 
   bool advance() {
@@ -98,25 +114,33 @@ class BasicGridWalker {
   }
 
  private:
-  // Whether a face of winding 0 is crossed all the same.
+  Quad corners_of(std::uint32_t first_point, std::uint32_t face,
+                  std::array<ShearedPoint, 4>& corners) const {
+    for (std::size_t i = 0; i < 4; ++i)
+      corners[i] = frame_(mesh_.points[first_point + step_[kCornerLoop[face][i]]]);
+    return {corners[0], corners[1], corners[2], corners[3]};
+  }
+
+  // The first face that is crossed although its winding is 0, or 6.
   template <class QuadOf>
-  bool any_grazed(const HexahedronWindings& winding, const QuadOf& quad) const {
+  std::uint32_t first_grazed(const HexahedronWindings& winding, const QuadOf& quad) const {
     if (!Faces::kGrazed || (Faces::kAsksIfPlanar && mesh_.planar_faces == PlanarFaces::all))
-      return false;
-    for (std::uint32_t f = 0; f < 6; ++f)
-      if (winding.of(f) == 0 && winding.may_be_crossed(f) &&
-          Faces::crossings(quad(f), 0, is_planar(first_, f)).grazed())
-        return true;
-    return false;
+      return 6;
+    std::uint32_t f = 0;
+    while (f < 6 && !(winding.of(f) == 0 && winding.may_be_crossed(f) &&
+                      Faces::crossings(quad(f), 0, is_planar(first_, f)).grazed()))
+      ++f;
+    return f;
   }
 
   template <class QuadOf>
   std::optional<Crossing> leave_one_of_several(const HexahedronWindings& winding,
-                                               const QuadOf& quad) {
+                                               const QuadOf& quad, std::uint32_t grazed,
+                                               std::optional<Excursion>* excursion) {
     std::array<CellCrossing, 12> crossings;
     std::size_t size = 0;
     for (std::uint32_t f = 0; f < 6; ++f) {
-      if (!winding.may_be_crossed(f)) continue;
+      if (!winding.may_be_crossed(f) || (winding.of(f) == 0 && f < grazed)) continue;
       const bool planar = is_planar(first_, f);
       const QuadCrossings of_face = Faces::crossings(quad(f), winding.of(f), planar);
       for (std::uint32_t rank = 0; rank < 2; ++rank)
@@ -126,6 +150,12 @@ class BasicGridWalker {
     }
     const auto exit = exit_for(crossings.data(), size, face_, rank_, frame_.sign());
     if (!exit) return std::nullopt;
+    if (excursion != nullptr && size == 4)
+      for (std::size_t in = 0; in < 2; ++in) {
+        const CellCrossing &back = crossings[in], &last = crossings[in + 2];
+        if (back.face == exit->face && back.face != face_ && last.face != face_)
+          *excursion = Excursion{back.place, last.face};
+      }
     return left_through(exit->face, exit->rank, exit->place);
   }
 

@@ -1,4 +1,4 @@
-/// What bundles of rays do with tetrahedra that may hold an isosurface.
+/// What bundles of rays do with cells that may hold an isosurface.
 #pragma once
 
 #include <algorithm>
@@ -10,21 +10,21 @@
 #include <vector>
 
 #include "plume/traverse/cell_search.h"
-#include "plume/traverse/tet_passage.h"
+#include "plume/traverse/searched_cells.h"
 
 namespace plume {
 
 /// A target says which cells matter (windows(), and for each ray limits(): a cell whose key is not
 /// below that does not), and takes those that the rays go through. Keys are here where a cell
-/// begins along the ray, z * sign.
+/// begins along the ray, z * sign. `Cells` says how rays pass through them: TetCells, AnyCells.
+template <class Cells>
 class IsosurfaceTarget {
  public:
   static constexpr CellKey kKey = CellKey::place;
 
-  IsosurfaceTarget(const WalkableTets& mesh, const CellHierarchy& hierarchy,
-                   std::span<const SoughtIsovalue> isovalues, const RayBundle& bundle,
-                   std::span<SearchedRay> found)
-      : mesh_(mesh), hierarchy_(hierarchy), isovalues_(isovalues), bundle_(bundle), found_(found) {
+  IsosurfaceTarget(const Cells& cells, std::span<const SoughtIsovalue> isovalues,
+                   const RayBundle& bundle, std::span<SearchedRay> found)
+      : cells_(cells), isovalues_(isovalues), bundle_(bundle), found_(found) {
     for (const SoughtIsovalue& sought : isovalues) windows_.push_back({sought.value, sought.value});
     limits_.fill(-kInfinity);
     std::fill_n(limits_.begin(), bundle.size(), kInfinity);
@@ -35,54 +35,39 @@ class IsosurfaceTarget {
   std::span<const ScalarWindow> windows() const { return windows_; }
   const float* limits() const { return limits_.data(); }
   /// The greatest of them, or more.
-  float limit() {
+  float limit() const {
     if (limits_changed_) limit_ = *std::max_element(limits_.begin(), limits_.end());
     limits_changed_ = false;
     return limit_;
   }
 
-  /// The ray goes through the cell.
-  void go_through(std::size_t index, const TetCell& cell) {
+  /// The ray may go through the cell.
+  void go_through(std::size_t index, const typename Cells::Cell& cell) {
     const ShearedFrame& frame = bundle_.frame(index);
     SearchedRay& ray = found_[index];
-    const TetPassage passage(cell, frame);
-    if (passage.ways() == TetPassage::Ways::none) return;
-    ray.count();
-    if (passage.ways() == TetPassage::Ways::two) return decline(index);
-    const Crossing in = passage.in(), out = passage.out();
-    const double t_in = frame.t(in.z), t_out = frame.t(out.z);
-    if (!(t_in <= t_out)) return decline(index);
-    const WalkableTets::Cell& links = mesh_.cells[cell.cell];
-    const std::uint32_t behind = links[passage.in_face()].cell;
-    if (behind == kNone) ray.cross_boundary(t_in, in.scalar, true);
-    if (links[passage.out_face()].cell == kNone) ray.cross_boundary(t_out, out.scalar, false);
-    const Between between = crossed(in.scalar, out.scalar);
-    if (between.any) {
-      if (!goes_forward(passage, in.z, behind)) return decline(index);
-      ray.add({t_in, t_out, in.scalar, out.scalar, cell.cell});
+    auto pass = [&](const Crossing& in, const Crossing& out, const auto& comes_from_before) {
+      ray.count();
+      const double t_in = frame.t(in.z), t_out = frame.t(out.z);
+      if (!(t_in <= t_out)) return false;
+      const Between between = crossed(in.scalar, out.scalar);
+      if (!between.any) return true;
+      if (!comes_from_before()) return false;
+      ray.add({t_in, t_out, in.scalar, out.scalar, cells_.number_of(cell)});
       if (between.opaque && t_out < lasts_[index]) {
         lasts_[index] = t_out;
         // What begins at the same place still matters.
         set_limit(index, std::nextafter(static_cast<float>(out.z * frame.sign()), kInfinity));
       }
-    }
+      return true;
+    };
+    if (!cells_.pass_through(cell, bundle_.ray(index), frame, pass)) ray.decline();
     if (ray.declined()) set_limit(index, -kInfinity);
   }
 
-  /// The ray goes into or out of a cell that is not thin, and does not matter, at the boundary.
-  void cross_boundary(std::size_t index, const TetCell& cell) {
-    const ShearedFrame& frame = bundle_.frame(index);
-    const TetPassage passage(cell, frame);
-    if (passage.ways() == TetPassage::Ways::none) return;
-    if (passage.ways() == TetPassage::Ways::two) return decline(index);
-    SearchedRay& ray = found_[index];
-    const WalkableTets::Cell& links = mesh_.cells[cell.cell];
-    auto cross = [&](const Crossing& place, bool in) {
-      ray.cross_boundary(frame.t(place.z), place.scalar, in);
-    };
-    if (links[passage.in_face()].cell == kNone) cross(passage.in(), true);
-    if (links[passage.out_face()].cell == kNone) cross(passage.out(), false);
-    if (ray.declined()) set_limit(index, -kInfinity);
+  /// The ray may cross a face at the boundary: the number of one in the mesh's list.
+  void cross_boundary(std::size_t index, std::uint32_t face) {
+    cells_.cross_boundary(face, bundle_.frame(index), found_[index]);
+    if (found_[index].declined()) set_limit(index, -kInfinity);
   }
 
   void finish(const SearchedRay::Gaps& gaps) {
@@ -91,14 +76,8 @@ class IsosurfaceTarget {
       found_[index].finish(bundle_.ray(index), lasts_[index], gaps, differ);
   }
 
-  /// In the mesh's local frame: closer than this two places may be out of order by rounding.
-  static constexpr double kRounding = 0x1p-20;
-
  private:
   static constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  // So far from the edges of the face by which it comes in, a ray has come through a good part of
-  // the cell before, if that is no special one.
-  static constexpr float kClearOfEdges = 0x1p-14f;
 
   struct Between {
     bool any = false, opaque = false;
@@ -115,31 +94,19 @@ class IsosurfaceTarget {
     return between;
   }
 
-  bool goes_forward(const TetPassage& passage, double z_in, std::uint32_t behind) const {
-    return (behind != kNone && !hierarchy_.near_special(behind) &&
-            passage.enters_clear_of_edges(kClearOfEdges)) ||
-           passage.comes_from_before(mesh_, z_in, kRounding);
-  }
-
-  void decline(std::size_t index) {
-    found_[index].decline();
-    set_limit(index, -kInfinity);
-  }
-
   void set_limit(std::size_t index, float limit) {
     limits_changed_ = limits_changed_ || limits_[index] == limit_;
     limits_[index] = limit;
   }
 
-  const WalkableTets& mesh_;
-  const CellHierarchy& hierarchy_;
+  const Cells& cells_;
   std::span<const SoughtIsovalue> isovalues_;
   const RayBundle& bundle_;
   std::span<SearchedRay> found_;
   std::vector<ScalarWindow> windows_;
   alignas(64) std::array<float, RayBundle::kRays> limits_;
-  bool limits_changed_ = false;
-  float limit_ = kInfinity;
+  mutable bool limits_changed_ = false;
+  mutable float limit_ = kInfinity;
   std::array<double, RayBundle::kRays> lasts_;
 };
 

@@ -87,7 +87,8 @@ inline void set_place(GridStart& start, const WalkableGrid& mesh, const ShearedF
   const std::uint32_t axis = face / 2, u = (axis + 1) % 3, v = (axis + 2) % 3;
   start.cell = cell;
   start.index = mesh.cell_index(cell);
-  start.first = mesh.first_point(cell) + (face % 2) * step[axis];
+  start.first = start.index[0] + start.index[1] * step[1] + start.index[2] * step[2] +
+                (face % 2) * step[axis];
   start.u = static_cast<std::uint8_t>(2 * u + 1);
   start.v = static_cast<std::uint8_t>(2 * v + 1);
   start.ahead = static_cast<std::uint8_t>(face ^ 1);

@@ -189,8 +189,7 @@ HWY_INLINE unsigned BitsOf(MF mask) {
 //     go on and on, not looked at;
 //     kInRegisters: whether packets are so small that it is worth a copy of the step for each;
 //     Cells(state, packet): the numbers of the cells that the lanes are in;
-//     Step(state, packet): to the next cell; Prefetch(state, packet);
-//     FetchAhead(state, packet), where there is one: after Load(), what the next step begins with.
+//     Step(state, packet): to the next cell; Prefetch(state).
 template <class Steps, std::size_t kCount, bool kPrefetch, class Consumer>
 class PacketWalk {
  public:
@@ -206,7 +205,7 @@ class PacketWalk {
       for (std::size_t lane = 0; lane < hn::Lanes(DF()); ++lane) give_ray(packet, lane);
     if constexpr (Steps::kInRegisters) return run(std::make_index_sequence<kCount>());
     Packet packets[kCount];
-    for (std::size_t place = 0; place < kCount; ++place) load(place, packets[place]);
+    for (std::size_t place = 0; place < kCount; ++place) packets[place].Load(states_[place]);
     while (rays_ > 0)
       for (std::size_t place = 0; place < kCount; ++place)
         turn(place, packets[place], packets[(place + 1) % kCount]);
@@ -217,14 +216,8 @@ class PacketWalk {
   template <std::size_t... kPlace>
   void run(std::index_sequence<kPlace...>) {
     Packet packets[kCount];
-    (load(kPlace, packets[kPlace]), ...);
+    (packets[kPlace].Load(states_[kPlace]), ...);
     while (rays_ > 0) (turn(kPlace, packets[kPlace], packets[(kPlace + 1) % kCount]), ...);
-  }
-
-  HWY_INLINE void load(std::size_t place, Packet& packet) {
-    packet.Load(states_[place]);
-    if constexpr (requires { steps_.FetchAhead(states_[place], packet); })
-      steps_.FetchAhead(states_[place], packet);
   }
 
   HWY_INLINE void turn(std::size_t place, Packet& packet, Packet& next) {
@@ -239,13 +232,13 @@ class PacketWalk {
       refill(next_place);
     }
     if (HWY_UNLIKELY(state.refilled)) {
-      load(place, packet);
+      packet.Load(state);
       state.refilled = false;
     }
     ++state.turn;
     const VU cells = steps_.Cells(state, packet);
     const StepResult step = steps_.Step(state, packet);
-    if constexpr (kPrefetch) steps_.Prefetch(state, packet);
+    if constexpr (kPrefetch) steps_.Prefetch(state);
     MF ended = step.left;
     if constexpr (Consumer::kMeasure) {
       // Where cells overlap a ray would have to go back; it waits instead.

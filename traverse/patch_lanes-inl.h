@@ -38,57 +38,53 @@ struct QuadLanes {
 // where the face is seen edge-on. measure_patch() knows what to do then.
 HWY_INLINE MF MeasurePatch(const QuadLanes<true>& p, VF winding, VF& z, VF& s) {
   const DF d;
-  const DU du;
-  const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
+  const VF zero = hn::Zero(d);
   auto cross = [&](std::size_t a, std::size_t b) {
     return DifferenceOfProducts(p.x[a], p.y[b], p.x[b], p.y[a]);
   };
-  const VF turn = hn::And(winding, hn::SignBit(d));
-  VF front = hn::Xor(cross(0, 1), turn);
-  VF back = hn::Xor(cross(2, 3), turn);  // minus the coefficient: >= 0 in a convex face, as `front`
-  VF middle = hn::Xor(hn::Add(cross(0, 2), cross(3, 1)), turn);
-  // Only their ratios count: brought to about 1 by a power of two, so that squares do not
-  // underflow.
-  const VF largest = hn::Max(hn::Max(hn::Abs(front), hn::Abs(back)), hn::Abs(middle));
-  const VU exponent = hn::And(hn::BitCast(du, largest), hn::Set(du, 0x7F800000u));
-  const VF scale = hn::BitCast(d, hn::Sub(hn::Set(du, 0x7F000000u), exponent));
-  front = hn::Mul(front, scale);
-  back = hn::Mul(back, scale);
-  middle = hn::Mul(middle, scale);
+  // Only ratios of these count. Where the face is about the ray coordinates are below 4, so squares
+  // do not overflow; those of cells that are wider than 2^-50 of the mesh do not underflow.
+  const VF scale = hn::CopySignToAbs(hn::Set(d, 0x1p56f), winding);
+  const VF front = hn::Mul(cross(0, 1), scale);
+  const VF back = hn::Mul(cross(2, 3), scale);  // minus the coefficient: >= 0 in a convex face
+  const VF middle = hn::Mul(hn::Add(cross(0, 2), cross(3, 1)), scale);
   const VF root = hn::Sqrt(
       hn::Max(zero, hn::MulAdd(middle, middle, hn::Mul(hn::Set(d, 4.0f), hn::Mul(front, back)))));
   const VF sum = hn::Add(hn::Abs(middle), root);
   const VF of_v = Choose(middle, hn::Add(front, front), sum);
   const VF of_rest = Choose(middle, sum, hn::Add(back, back));
-  const VF v = hn::Div(of_v, hn::Add(of_v, of_rest));
-  auto at_v = [&](const VF(&values)[4], VF& from, VF& to) {
-    from = hn::MulAdd(v, hn::Sub(values[3], values[0]), values[0]);
-    to = hn::MulAdd(v, hn::Sub(values[2], values[1]), values[1]);
+  // u is the same whatever (1 - v) and v are multiplied with: it need not wait for v.
+  auto across = [&](const VF(&values)[4], VF& from, VF& way) {
+    from = hn::MulAdd(of_v, values[3], hn::Mul(of_rest, values[0]));
+    way = hn::Sub(from, hn::MulAdd(of_v, values[2], hn::Mul(of_rest, values[1])));
   };
-  VF from_x, to_x, from_y, to_y;
-  at_v(p.x, from_x, to_x);
-  at_v(p.y, from_y, to_y);
-  const VF way_x = hn::Sub(from_x, to_x), way_y = hn::Sub(from_y, to_y);
+  VF from_x, way_x, from_y, way_y;
+  across(p.x, from_x, way_x);
+  across(p.y, from_y, way_y);
   const MF by_x = hn::Gt(hn::Abs(way_x), hn::Abs(way_y));
   const VF u = hn::Div(hn::IfThenElse(by_x, from_x, from_y), hn::IfThenElse(by_x, way_x, way_y));
+  const VF v = hn::Div(of_v, hn::Add(of_v, of_rest));
   auto at = [&](const VF(&values)[4]) {
-    VF from, to;
-    at_v(values, from, to);
+    const VF from = hn::MulAdd(v, hn::Sub(values[3], values[0]), values[0]);
+    const VF to = hn::MulAdd(v, hn::Sub(values[2], values[1]), values[1]);
     return hn::MulAdd(u, hn::Sub(to, from), from);
   };
   z = at(p.z);
   s = at(p.s);
-  const MF inside =
-      hn::And(hn::And(hn::Ge(v, zero), hn::Le(v, one)), hn::And(hn::Ge(u, zero), hn::Le(u, one)));
+  const VF half = hn::Set(d, 0.5f);
+  const MF inside = hn::And(hn::Le(hn::Abs(hn::Sub(v, half)), half),  // false for no number
+                            hn::Le(hn::Abs(hn::Sub(u, half)), half));
   return hn::Not(inside);
 }
 
-// Whether a face of even winding winds twice: its corners are above and below y = 0 in turn, and
-// its edges cross on the right and on the left in turn. Of three edges one after the other: whether
-// they cross, and on the right.
-HWY_INLINE VF WindsTwice(VF crosses0, VF crosses1, VF crosses2, VF right0, VF right1, VF right2) {
-  return hn::And(hn::And(crosses0, hn::And(crosses1, crosses2)),
-                 hn::And(hn::Xor(right0, right1), hn::Xor(right1, right2)));
+// Whether a face winds twice: its corners are above and below y = 0 in turn, and its edges cross on
+// the right and on the left in turn. Of edges one after the other: whether they cross (the fourth
+// does where the others do), and on the right.
+HWY_INLINE VF WindsTwice(VF crosses0, VF crosses1, VF crosses2, VF right0, VF right1, VF right2,
+                         VF right3) {
+  return hn::And(
+      hn::And(crosses0, hn::And(crosses1, crosses2)),
+      hn::And(hn::Xor(right0, right1), hn::And(hn::Xor(right1, right2), hn::Xor(right2, right3))));
 }
 
 // Whether faces of winding 0 may be crossed, in and out again: is_grazed() of quad_crossings.h with
@@ -114,16 +110,16 @@ class GrazeTest {
     const VF tiny = hn::Set(d, 1e-37f);  // above what underflows
     const VF four = hn::Set(d, 4);
     const VF v1 = hn::Sub(ac, bd), u1 = hn::Add(ac, bd);
-    auto room = [&](VF of) { return hn::MulAdd(hn::Abs(of), error_, tiny); };
-    const VF outer = hn::Mul(v0, v2);
+    // The signs of edges' products are right where they are not 0, and those of their bits then.
+    const VF ends = hn::Or(hn::MulAdd(v0, v2, tiny), hn::MulAdd(u0, u2, tiny));
+    auto opposite = [&](VF edge, VF middle) {
+      return hn::NegMulAdd(edge, middle, hn::MulAdd(hn::Abs(edge), error_, tiny));
+    };
+    const VF middles = hn::Or(opposite(v0, v1), opposite(u0, u1));
     const VF sizes = hn::MulAdd(four, hn::Add(hn::Abs(v0), hn::Abs(v2)),
                                 hn::MulAdd(hn::Set(d, 2), hn::Abs(v1), error_));
-    const VF discriminant = hn::NegMulAdd(four, outer, hn::MulAdd(v1, v1, room(sizes)));
-    // An edge's bit may have another sign than its product.
-    auto both = [&](VF p, VF q) { return room(hn::Add(hn::Abs(p), hn::Abs(q))); };
-    const VF ends = hn::Or(hn::Add(outer, both(v0, v2)), hn::MulAdd(u0, u2, both(u0, u2)));
-    const VF middles =
-        hn::Or(hn::NegMulAdd(v0, v1, both(v0, v1)), hn::NegMulAdd(u0, u1, both(u0, u1)));
+    const VF discriminant =
+        hn::NegMulAdd(hn::Mul(four, v0), v2, hn::MulAdd(v1, v1, hn::MulAdd(sizes, error_, tiny)));
     return hn::Or(hn::Or(ends, discriminant), middles);
   }
 

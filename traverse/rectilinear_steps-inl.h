@@ -113,8 +113,7 @@ class RectilinearSteps {
   }
 
   // Near the grid's end, where rays leave, some ask for what nobody needs.
-  template <class AnyPacket>
-  HWY_INLINE void Prefetch(const State& state, const AnyPacket&) const {
+  HWY_INLINE void Prefetch(const State& state) const {
     if (values_ == nullptr) return;
     for (const auto& points : state.ahead)
       for (std::size_t lane = 0; lane < hn::Lanes(DF()); ++lane)

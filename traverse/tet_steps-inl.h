@@ -27,8 +27,6 @@ namespace HWY_NAMESPACE {
 // What cells are read by.
 enum class TetReads { cached, large, compact };
 
-struct Nothing {};
-
 // TetWalker::decide() and advance(), a ray a lane (see PacketWalk).
 //
 // Of a mesh that is larger than the caches only the link that is followed is loaded; of compact
@@ -39,15 +37,6 @@ class TetSteps {
   using Start = TetStart;
   static constexpr bool kInRegisters = true;
   static constexpr bool kCompact = kReads == TetReads::compact;
-
-  // Whether the next apexes' points are fetched at the end of a step rather than at the beginning
-  // of the next one: out of the way of what the packets in between compute, and asked for as early
-  // as can be. With 16 lanes and a measured face, or beyond the caches, that is a tenth faster
-  // (blunt fin's integral, 10 million cells); otherwise registers run out, and it is as much
-  // slower.
-  template <bool kMeasure>
-  static constexpr bool kAhead =
-      HWY_TARGET <= HWY_AVX3&& HWY_ARCH_X86 && !kCompact && (kMeasure || kReads == TetReads::large);
 
   // Corners are written here only while a lane is given a ray; `cells` and `apex_by_2` always, as
   // places to load from, in steps of 8 bytes. `previous` is for compact cells.
@@ -62,10 +51,8 @@ class TetSteps {
   template <bool kMeasure>
   struct Packet : SegmentStart<kMeasure> {
     Corner<kMeasure> a, b, c;
-    VU apex;              // of compact cells: the previous cell
+    VU previous;          // the cells that compact ones were come to from
     VF right_a, right_c;  // whether the edges across from a and c cross on the right
-    // The apex', where it is known.
-    [[no_unique_address]] std::conditional_t<kAhead<kMeasure>, FourFloats, Nothing> point;
 
     HWY_INLINE void Load(const State& state) {
       const DF d;
@@ -73,10 +60,7 @@ class TetSteps {
       a.Load(state.corners[0]);
       b.Load(state.corners[1]);
       c.Load(state.corners[2]);
-      if constexpr (kCompact)
-        apex = hn::Load(DU(), state.previous);
-      else
-        apex = hn::ShiftRight<1>(hn::Load(DU(), state.apex_by_2));
+      if constexpr (kCompact) previous = hn::Load(DU(), state.previous);
       right_a = hn::Load(d, state.corners[0].right);
       right_c = hn::Load(d, state.corners[2].right);
     }
@@ -88,7 +72,7 @@ class TetSteps {
       c.Store(state.corners[2]);
       hn::Store(right_a, d, state.corners[0].right);
       hn::Store(right_c, d, state.corners[2].right);
-      if constexpr (kCompact) hn::Store(apex, DU(), state.previous);
+      if constexpr (kCompact) hn::Store(previous, DU(), state.previous);
     }
   };
 
@@ -118,16 +102,10 @@ class TetSteps {
     return hn::ShiftRight<kShift>(hn::Load(DU(), state.cells));
   }
 
-  template <bool kMeasure>
-  HWY_INLINE void Prefetch(const State& state, const Packet<kMeasure>&) const {
+  HWY_INLINE void Prefetch(const State& state) const {
     if constexpr (kCompact) return HWY_NAMESPACE::Prefetch(compact_cells(), state.cells);
     HWY_NAMESPACE::Prefetch(reinterpret_cast<const float*>(mesh_.cells.data()), state.cells);
-    if constexpr (!kAhead<kMeasure>) HWY_NAMESPACE::Prefetch(points_, state.apex_by_2);
-  }
-
-  template <bool kMeasure>
-  HWY_INLINE void FetchAhead(const State& state, Packet<kMeasure>& packet) const {
-    if constexpr (kAhead<kMeasure>) packet.point = LoadFour(points_, state.apex_by_2);
+    HWY_NAMESPACE::Prefetch(points_, state.apex_by_2);
   }
 
   template <bool kMeasure>
@@ -135,19 +113,13 @@ class TetSteps {
     const DF d;
     const DU du;
     const auto cells = read_cells(state, packet);
-    const ShearedLanes at = [&] {
-      if constexpr (kAhead<kMeasure>)
-        return Shear(packet.point, kAxis, state);
-      else
-        return Shear(LoadFour(points_, state.apex_by_2), kAxis, state);
-    }();
+    const ShearedLanes at = Shear(LoadFour(points_, state.apex_by_2), kAxis, state);
     Corner<kMeasure> apex;
     apex.x = at.x;
     apex.y = at.y;
     apex.z = at.z;
     apex.s = at.s;
     apex.id = hn::ShiftRight<1>(hn::Load(du, state.apex_by_2));
-    if constexpr (!kCompact) apex.id = packet.apex;
 
     Corner<kMeasure>&a = packet.a, &b = packet.b, &c = packet.c;
     // Right of the ray: low.x * high.y > high.x * low.y, where the apex is high if it is up and low
@@ -178,7 +150,7 @@ class TetSteps {
       out_b = Choose(all, hn::Not(hn::Or(out_a, out_c)), out_b);
     }
 
-    const VU behind = Choose(out_a, a.id, Choose(out_b, b.id, c.id));
+    const VU behind = Choose(out_c, c.id, Choose(out_a, a.id, b.id));
     const Links next = next_cells(cells, packet, Rank(behind, a.id, b.id, c.id, apex.id), apex.id);
     packet.right_a = Choose(out_b, to_c, Choose(out_c, to_b, packet.right_a));
     packet.right_c = Choose(out_a, to_b, Choose(out_b, to_a, packet.right_c));
@@ -190,13 +162,9 @@ class TetSteps {
     // which mean nothing without a way in, to any number.
     auto left = hn::Eq(next.cell, hn::Set(du, kNone));
     if constexpr (kCompact) left = hn::Gt(next.cell, hn::Set(du, last_cell_));
-    if constexpr (kCompact) packet.apex = hn::ShiftRight<kShift>(hn::Load(du, state.cells));
+    if constexpr (kCompact) packet.previous = hn::ShiftRight<kShift>(hn::Load(du, state.cells));
     hn::Store(hn::IfThenZeroElse(left, hn::ShiftLeft<kShift>(next.cell)), du, state.cells);
-    if constexpr (!kCompact) {
-      hn::Store(hn::Add(next.apex, next.apex), du, state.apex_by_2);
-      packet.apex = next.apex;
-    }
-    FetchAhead(state, packet);
+    if constexpr (!kCompact) hn::Store(hn::Add(next.apex, next.apex), du, state.apex_by_2);
 
     StepResult result;
     result.left = hn::RebindMask(d, left);
@@ -259,7 +227,7 @@ class TetSteps {
       return cells.pick(rank);
     } else {
       const VU in = Rank(apex, packet.a.id, packet.b.id, packet.c.id, apex);
-      return {cells.neighbor(rank, in, packet.apex), hn::Zero(DU())};
+      return {cells.neighbor(rank, in, packet.previous), hn::Zero(DU())};
     }
   }
 

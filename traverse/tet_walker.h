@@ -19,7 +19,8 @@ class TetWalker {
   using Mesh = WalkableTets;
   using Boundary = WalkableTets::Boundary;
 
-  TetWalker(const WalkableTets& mesh, const ShearedFrame& frame) : mesh_(mesh), frame_(frame) {}
+  TetWalker(const WalkableTets& mesh, const ShearedFrame& frame)
+      : mesh_(mesh), frame_(frame), is_compact_(mesh.is_compact()) {}
 
   /// The winding of a boundary face about the ray, seen from outside.
   int boundary_winding(const Boundary& face) const {
@@ -66,15 +67,15 @@ class TetWalker {
     else
       out = winds(1) ? 1 : 2;
 
-    const Corner behind = corners_[out];
-    const std::size_t in_rank = rank(apex.id);
+    const std::uint32_t behind = corners_[out].id;
     corners_[out] = apex;
     right_[(out + 1) % 3] = to_apex[(out + 2) % 3];
     right_[(out + 2) % 3] = to_apex[(out + 1) % 3];
-    if (mesh_.is_compact())
-      decide_compact(rank(behind.id), in_rank);
+    const std::size_t way_out = rank(behind);
+    if (is_compact_)
+      decide_compact(way_out, rank(apex.id) + (behind < apex.id ? 1 : 0));
     else
-      next_ = mesh_.cells[cell_][rank(behind.id)];
+      next_ = mesh_.cells[cell_][way_out];
   }
 
   /// The same, and where the ray crosses that face.
@@ -132,6 +133,7 @@ class TetWalker {
 
   const WalkableTets& mesh_;
   const ShearedFrame& frame_;
+  const bool is_compact_;
   std::uint32_t cell_ = kNone, previous_ = kNone;
   WalkableTets::Link next_{kNone, 0};
   // The triangle by which the ray came into the cell, and whether the edges across from its corners

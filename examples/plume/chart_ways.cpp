@@ -55,7 +55,7 @@ std::string integrator_name(const IntegratorSettings& integrator) {
 
 bool would_take_packets(const Scene& scene, const RenderSettings& settings) {
   return has_packets(scene) && settings.integrator.kind == IntegratorKind::closed_form &&
-         is_linear(scene, settings);
+         has_packets_of_order(scene, settings);
 }
 
 // Collects settings, each once.
@@ -230,9 +230,8 @@ std::vector<ChartWay> planned_ways(const Scene& scene, const Camera& camera,
   for (const double tolerance : {1e-2, 1e-3, 1e-4}) {
     RenderSettings settings = base;
     settings.tolerance = Tolerance{tolerance};
-    std::vector<std::string> reasons;
     Stopwatch watch;
-    const RenderSettings plan = plan_for(scene, camera, settings, reasons);
+    const RenderSettings plan = plan_for(scene, camera, settings).settings;
     ways.push_back(way_of(scene, plan));
     ways.back().planning = watch.lap();
     ways.back().name = fmt::format("tolerance {}: {}", short_number(tolerance), ways.back().name);

@@ -129,6 +129,9 @@ void add_render_options(CLI::App& command, RenderArguments& args) {
                   "A side of the grid as an opaque surface: imin imax jmin jmax kmin kmax, and "
                   ":R,G,B where wanted (repeatable)")
       ->allow_extra_args(false);
+  command.add_flag("--compact", args.compact,
+                   "Keep tetrahedra in 16 bytes a cell instead of 32: for meshes beyond some ten "
+                   "million cells");
   command.add_flag("--no-volume", args.no_volume, "Isosurfaces and intervals alone");
   command
       .add_option("--interval-form", args.interval_form,

@@ -25,7 +25,8 @@ struct RenderArguments {
   double unit_distance = 0;
   std::optional<double> early_termination, tolerance;
   int orbit = 0, samples = 1, threads = 0, bits = 8;
-  bool no_volume = false, parallel = false, merge_points = false, quiet = false, verbose = false;
+  bool compact = false, no_volume = false, parallel = false, merge_points = false, quiet = false,
+       verbose = false;
   bool no_read_ahead = false;
 };
 

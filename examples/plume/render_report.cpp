@@ -14,6 +14,14 @@ nlohmann::json to_json(const std::vector<Finding>& findings) {
   return list;
 }
 
+nlohmann::json of_tolerance(const RenderSettings& settings, const RenderStatistics& statistics) {
+  if (!settings.tolerance) return nullptr;
+  return {{"asked", settings.tolerance->max_error},
+          {"error_estimate", statistics.error_estimate.value_or(0)},
+          {"kept", statistics.keeps_tolerance},
+          {"ms_planning", 1e3 * statistics.seconds_planning}};
+}
+
 nlohmann::json others(const std::vector<const Scene*>& scenes) {
   auto list = nlohmann::json::array();
   for (std::size_t i = 1; i < scenes.size(); ++i) {
@@ -75,6 +83,7 @@ nlohmann::json render_record(const FrameOfSeries& frame, const std::vector<const
           {"gray_range",
            statistics.gray_range ? nlohmann::json(*statistics.gray_range) : nlohmann::json()},
           {"order", static_cast<int>(statistics.order)},
+          {"tolerance", of_tolerance(settings, statistics)},
           {"plan", statistics.plan},
           {"findings", to_json(scene.findings())}};
 }

@@ -40,6 +40,7 @@ SceneOptions scene_options(const RenderArguments& args, const RenderSettings& se
   options.cell_data = chosen(kCellData, args.cell_data);
   options.keep_cell_numbers = asks_for(args.channels, "cell_id");
   options.keep_gradients = settings.lighting || asks_for(args.channels, "normal");
+  options.compact_tetrahedra = args.compact;
   return options;
 }
 
@@ -202,6 +203,7 @@ class SeriesRenderer {
     const RenderStatistics& statistics = result.statistics;
     take_values(statistics);
     if (!several_frames()) say_values();
+    say_whether_tolerance_is_kept(statistics);
     if (args_.verbose && records_.empty())
       for (const std::string& line : statistics.plan) console_.say(line);
 
@@ -218,6 +220,14 @@ class SeriesRenderer {
                      ? fmt::format("{}: {}, {}", frame.output, series_.describe(frame.step), walked)
                      : fmt::format("{}: {} x {}, {}", frame.output, settings_.width,
                                    settings_.height, walked));
+  }
+
+  void say_whether_tolerance_is_kept(const RenderStatistics& statistics) {
+    if (statistics.keeps_tolerance) return;
+    once_.say(fmt::format("what is forced does not keep to --tolerance {:g}: its error is "
+                          "estimated at {:.1g}; --verbose says of what",
+                          settings_.tolerance->max_error, *statistics.error_estimate),
+              "tolerance");
   }
 
   void take_values(const RenderStatistics& statistics) {

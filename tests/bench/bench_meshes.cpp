@@ -1,6 +1,7 @@
 #include "plume/tests/bench/bench_meshes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -35,6 +36,29 @@ void shuffle_cells(WalkableTets& tets, PluckerMesh& plucker) {
   tets.cells = std::move(cells);
   plucker.cells = std::move(records);
   for (WalkableTets::Boundary& face : tets.boundary) face.cell = place[face.cell];
+}
+
+// In the order of the cells that the other walkers have.
+WalkableTets compact(const WalkableTets& tets, const PluckerMesh& plucker) {
+  WalkableTets compact;
+  compact.frame = tets.frame;
+  compact.points = tets.points;
+  compact.boundary = tets.boundary;
+  compact.compact_cells.resize(plucker.cells.size());
+  for (std::size_t c = 0; c < plucker.cells.size(); ++c) {
+    const PluckerMesh::Cell& from = plucker.cells[c];
+    std::array<std::size_t, 4> order{0, 1, 2, 3};
+    std::sort(order.begin(), order.end(),
+              [&](std::size_t a, std::size_t b) { return from.points[a] < from.points[b]; });
+    auto neighbor = [&](std::size_t rank) {
+      const std::uint32_t next = from.neighbors[order[rank]];
+      return next == kNone ? kNone : next / 4;
+    };
+    WalkableTets::CompactCell& cell = compact.compact_cells[c];
+    cell.points = from.points[0] ^ from.points[1] ^ from.points[2] ^ from.points[3];
+    for (std::size_t r = 1; r < 4; ++r) cell.neighbors[r - 1] = neighbor(r) ^ neighbor(0);
+  }
+  return compact;
 }
 
 float percentile(std::vector<float> values, double share) {
@@ -151,6 +175,7 @@ BenchMesh make_bench_mesh(const Mesh& mesh, Family family, CellOrder order) {
       made.tets = make_walkable_tets(mesh, field, made.bounds, false);
       made.plucker = make_plucker_mesh(mesh, find_tet_adjacency(mesh, field, made.bounds));
       if (order == CellOrder::random) shuffle_cells(made.tets, made.plucker);
+      made.compact_tets = compact(made.tets, made.plucker);
       made.cell_count = made.tets.cell_count();
       break;
     case Family::hexahedra:

@@ -30,6 +30,7 @@ struct BenchMesh {
   float scalar_size = 0;
   std::size_t cell_count = 0;
   WalkableTets tets;
+  WalkableTets compact_tets;  // the same, with compact cells
   PluckerMesh plucker;
   WalkableGrid grid;
   WalkableCells cells;

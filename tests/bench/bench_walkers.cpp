@@ -11,6 +11,11 @@ namespace {
 
 std::size_t plucker_bytes(const BenchMesh& mesh) { return mesh.plucker.bytes(); }
 
+std::size_t compact_bytes(const BenchMesh& mesh) {
+  return mesh.compact_tets.bytes() -
+         mesh.compact_tets.boundary.size() * sizeof(WalkableTets::Boundary);
+}
+
 std::size_t tets_bytes(const BenchMesh& mesh) {
   return mesh.tets.cells.size() * sizeof(WalkableTets::Cell) +
          mesh.tets.points.size() * sizeof(WalkablePoint);
@@ -50,10 +55,14 @@ const std::vector<BenchWalker>& walkers(Family family) {
         {"tet-walker", walk_passages<TetWalker>, kAllModes, Likeness::exact, tets_bytes},
         {"plucker-fast", walk_relative_plucker, kAllModes, Likeness::rounding, plucker_bytes},
         {"tet-packets", walk_packet_passages, kPacketModes, Likeness::exact, tets_bytes},
+        {"compact", walk_compact_passages, kPacketModes, Likeness::exact, compact_bytes},
     };
-    if (packets_have_more_than_avx2())
+    if (packets_have_more_than_avx2()) {
       walkers.push_back(
           {"packets-avx2", walk_packet_passages_avx2, kPacketModes, Likeness::exact, tets_bytes});
+      walkers.push_back({"compact-avx2", walk_compact_passages_avx2, kPacketModes, Likeness::exact,
+                         compact_bytes});
+    }
     return walkers;
   }();
   static const std::vector<BenchWalker> of_hexahedra = [] {

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <tbb/global_control.h>
 
-#include <cstdint>
 #include <cstdio>
 #include <functional>
 #include <vector>
@@ -12,10 +11,8 @@
 #include "plume/lib/plume.h"
 #include "plume/mesh/cell_hierarchy.h"
 #include "plume/mesh/validate.h"
-#include "plume/tests/bench/bench_views.h"
 #include "plume/tests/bench/frame_scenes.h"
 #include "plume/tests/bench/interleaved.h"
-#include "plume/tests/bench/packet_walker.h"
 #include "plume/tests/bench/timing.h"
 
 namespace plume::bench {
@@ -41,67 +38,45 @@ void compare_builds(const Mesh& mesh, int rounds) {
              median(walkable), median(hierarchy), median(ratios), bytes);
 }
 
-// Pixels along a Z-curve, so that rays that share packets are neighbours.
-void for_each_along_curve(int size, const std::function<void(int, int)>& visit) {
-  int whole = 1;
-  while (whole < size) whole *= 2;
-  for (std::uint32_t place = 0; place < static_cast<std::uint32_t>(whole * whole); ++place) {
-    int x = 0, y = 0;
-    for (int bit = 0; bit < 15; ++bit) {
-      x |= static_cast<int>(place >> (2 * bit) & 1) << bit;
-      y |= static_cast<int>(place >> (2 * bit + 1) & 1) << bit;
-    }
-    if (x < size && y < size) visit(x, y);
-  }
-}
-
-}  // namespace
-
-bool compare_isosurfaces(const HierarchyFrameOptions& options) {
-  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
-  const Mesh mesh = generate("box-tetrahedra", {options.cells, 0.2, 1});
+// An opaque isosurface half way between the least and the greatest value: through the hierarchy,
+// ray by ray, and by packets. Packets are made to make it by a volume beside it that shows nothing.
+bool compare_ways(const Mesh& mesh, const char* what, const HierarchyFrameOptions& options) {
   Scene scene(mesh);
   const float value = 0.5f * (scene.field().low + scene.field().high);
-  Classification classification;
-  classification.isosurfaces.push_back({value, 1, {1, 1, 1}});
-  scene.set_classification(classification);
-  fmt::print(
-      "\nAn opaque isosurface of {0} tetrahedra, {1} x {1} pixels, one thread; milliseconds on the "
-      "processor,\nmedians of {2} frames in turns\n",
-      scene.cell_count(), options.size, options.rounds);
-  compare_builds(mesh, options.rounds);
-
-  // What packets read.
-  BenchMesh bench;
-  bench.bounds = scene.bounds();
-  bench.tets = make_walkable_tets(mesh, select_field(mesh), bench.bounds, false);
-  bench.optics = BenchOptics(value, scene.field().low, scene.field().high, 1);
-  const BoundaryIndex<TetWalker> boundary(bench.tets);
-
-  fmt::print("{:<14}{:>11}{:>11}{:>9}{:>13}{:>9}{:>11}{:>11}\n", "view", "hierarchy", "walker",
-             "ratio", "packets", "ratio", "rays hit", "declined");
+  Classification alone;
+  alone.isosurfaces.push_back({value, 1, {1, 1, 1}});
+  Classification beside_nothing = alone;
+  beside_nothing.volume = scene.transfer_function();
+  for (auto& knot : beside_nothing.volume->knots) knot.optics.extinction = 0;
+  fmt::print("{} {}\n{:<14}{:>11}{:>11}{:>9}{:>11}{:>9}{:>11}{:>11}\n", scene.cell_count(), what,
+             "view", "hierarchy", "walker", "ratio", "packets", "ratio", "rays hit", "declined");
   bool same = true;
   for (const NamedCamera& view : frame_cameras(scene.bounds())) {
     RenderSettings searched;
     searched.width = searched.height = options.size;
     searched.threads = 1;
-    RenderSettings walked = searched;
+    // The channel keeps packets from what they would do.
+    RenderSettings by_hierarchy = searched;
+    by_hierarchy.channels = {"depth"};
+    RenderSettings walked = by_hierarchy;
     walked.scalar_twin = true;
-    const RenderResult ours = render(scene, view.camera, searched);
-    same = same && ours.image.rgba == render(scene, view.camera, walked).image.rgba;
-    const PixelRays pixel_rays(view.camera, options.size, options.size);
-    std::vector<Ray> rays;
-    for_each_along_curve(options.size,
-                         [&](int x, int y) { rays.push_back(pixel_rays(x + 0.5, y + 0.5)); });
-    const BenchView passages = make_view(bench, boundary, view.name, rays);
-    std::vector<PassageSum> sums(passages.passages.size());
+    scene.set_classification(alone);
+    const RenderResult ours = render(scene, view.camera, by_hierarchy);
+    const RenderResult twin = render(scene, view.camera, walked);
+    same = same && ours.image.rgba == twin.image.rgba &&
+           ours.image.channels[0].values == twin.image.channels[0].values;
+    auto frame_of = [&](const Classification& classification, const RenderSettings& settings) {
+      return [&] {
+        scene.set_classification(classification);
+        render(scene, view.camera, settings);
+      };
+    };
     const std::vector<std::function<void()>> tasks{
-        [&] { render(scene, view.camera, searched); }, [&] { render(scene, view.camera, walked); },
-        [&] { walk_packet_passages(bench, passages, bench::Mode::isosurface, sums); }};
+        frame_of(alone, by_hierarchy), frame_of(alone, walked), frame_of(beside_nothing, searched)};
     const auto seconds = take_turns(tasks, options.rounds);
     const double hierarchy = median(seconds[0]), walker = median(seconds[1]);
     const double packets = median(seconds[2]);
-    fmt::print("{:<14}{:>11.1f}{:>11.1f}{:>9.1f}{:>13.1f}{:>9.1f}{:>11}{:>11}\n", view.name,
+    fmt::print("{:<14}{:>11.1f}{:>11.1f}{:>9.1f}{:>11.1f}{:>9.1f}{:>11}{:>11}\n", view.name,
                1e3 * hierarchy, 1e3 * walker, walker / hierarchy, 1e3 * packets,
                packets / hierarchy, ours.statistics.surfaces,
                ours.statistics.rays - ours.statistics.rays_searched);
@@ -109,6 +84,26 @@ bool compare_isosurfaces(const HierarchyFrameOptions& options) {
   }
   if (!same) std::fputs("plume_frame_bench: the pictures differ\n", stderr);
   return same;
+}
+
+}  // namespace
+
+bool compare_isosurfaces(const HierarchyFrameOptions& options) {
+  const tbb::global_control one(tbb::global_control::max_allowed_parallelism, 1);
+  fmt::print(
+      "\nAn opaque isosurface, {0} x {0} pixels, one thread; milliseconds on the processor, "
+      "medians "
+      "of {1} frames in turns\n",
+      options.size, options.rounds);
+  const Mesh tetrahedra = generate("box-tetrahedra", {options.cells, 0.2, 1});
+  compare_builds(tetrahedra, options.rounds);
+  bool same = compare_ways(tetrahedra, "tetrahedra", options);
+  same = compare_ways(generate("box-hexahedra", {options.cells, 0.2, 1}), "hexahedra of a grid",
+                      options) &&
+         same;
+  return compare_ways(generate("box-mixed", {options.cells / 2, 0.2, 1}), "cells of all kinds",
+                      options) &&
+         same;
 }
 
 }  // namespace plume::bench

@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "hwy/targets.h"
@@ -20,8 +21,10 @@ class PassageFeeder : public PacketFeeder {
  public:
   using Start = StartOf<Form>;
 
-  PassageFeeder(const Form& form, const BenchView& view, const std::vector<std::uint32_t>& passages)
-      : form_(form), view_(view), passages_(passages) {}
+  // `t_in`, where it is not empty, is set to where each passage begins.
+  PassageFeeder(const Form& form, const BenchView& view, const std::vector<std::uint32_t>& passages,
+                std::span<float> t_in)
+      : form_(form), view_(view), passages_(passages), t_in_(t_in) {}
 
   const PacketStart* next(const PacketStart* finished) override {
     if (at_ == passages_.size()) return nullptr;
@@ -33,6 +36,7 @@ class PassageFeeder : public PacketFeeder {
         finished ? static_cast<std::size_t>(static_cast<const Start*>(finished) - starts_.data())
                  : used_++;
     frames_[lane] = made_.frame(at_ % FrameLanes::kRays);
+    if (!t_in_.empty()) t_in_[index] = static_cast<float>(frames_[lane].t(entry.place.z));
     set_start(starts_[lane], form_, frames_[lane], form_.boundary[entry.boundary], entry.place,
               entry.rank, index);
     ++at_;
@@ -50,6 +54,7 @@ class PassageFeeder : public PacketFeeder {
   const Form& form_;
   const BenchView& view_;
   const std::vector<std::uint32_t>& passages_;
+  const std::span<float> t_in_;
   FrameLanes made_;
   std::array<Start, kMaxPacketLanes> starts_;
   std::array<ShearedFrame, kMaxPacketLanes> frames_;  // starts of grids refer to theirs
@@ -71,10 +76,11 @@ template <class Form>
 void walk_form(const Form& form, const BenchOptics& optics, const BenchView& view, Mode mode,
                std::span<PassageSum> sums) {
   const auto passages = by_axis(view);
+  std::vector<float> t_in(mode == Mode::isosurface ? view.passages.size() : 0);
   // walk(axis, feeder) for the rays of each axis.
   auto for_each_axis = [&](auto&& walk) {
     for (int axis = 0; axis < 3; ++axis) {
-      PassageFeeder<Form> feeder(form, view, passages[static_cast<std::size_t>(axis)]);
+      PassageFeeder<Form> feeder(form, view, passages[static_cast<std::size_t>(axis)], t_in);
       walk(axis, feeder);
     }
   };
@@ -97,11 +103,7 @@ void walk_form(const Form& form, const BenchOptics& optics, const BenchView& vie
     });
     for (std::size_t i = 0; i < sums.size(); ++i) {
       sums[i] = {hits[i].cells, 0, 0};
-      if (!std::isfinite(hits[i].distance)) continue;
-      const Passage& passage = view.passages[i];
-      ShearedFrame frame;
-      frame.set(view.rays[passage.ray], form.frame);
-      sums[i].first = static_cast<float>(frame.t(passage.entry.place.z)) + hits[i].distance;
+      if (std::isfinite(hits[i].distance)) sums[i].first = t_in[i] + hits[i].distance;
     }
   } else {
     assert(mode == Mode::closed_form);
@@ -130,6 +132,18 @@ void walk_packet_passages_avx2(const BenchMesh& mesh, const BenchView& view, Mod
                                std::span<PassageSum> sums) {
   limit_packet_instruction_sets(HWY_AVX2);
   walk_packet_passages(mesh, view, mode, sums);
+  limit_packet_instruction_sets(0);
+}
+
+void walk_compact_passages(const BenchMesh& mesh, const BenchView& view, Mode mode,
+                           std::span<PassageSum> sums) {
+  walk_form(mesh.compact_tets, mesh.optics, view, mode, sums);
+}
+
+void walk_compact_passages_avx2(const BenchMesh& mesh, const BenchView& view, Mode mode,
+                                std::span<PassageSum> sums) {
+  limit_packet_instruction_sets(HWY_AVX2);
+  walk_compact_passages(mesh, view, mode, sums);
   limit_packet_instruction_sets(0);
 }
 

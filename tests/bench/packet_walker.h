@@ -19,6 +19,12 @@ void walk_packet_passages(const BenchMesh& mesh, const BenchView& view, Mode mod
 void walk_packet_passages_avx2(const BenchMesh& mesh, const BenchView& view, Mode mode,
                                std::span<PassageSum> sums);
 
+/// Through compact tetrahedra.
+void walk_compact_passages(const BenchMesh& mesh, const BenchView& view, Mode mode,
+                           std::span<PassageSum> sums);
+void walk_compact_passages_avx2(const BenchMesh& mesh, const BenchView& view, Mode mode,
+                                std::span<PassageSum> sums);
+
 /// Whether the processor has wider ones.
 bool packets_have_more_than_avx2();
 

@@ -63,11 +63,11 @@ std::vector<double> fine_places() {
 
 using Rows = std::vector<std::vector<std::string>>;
 
-// Samples at even steps, which cross voxels anywhere: tables of a constant length, 2D and 3D.
-template <class Field>
-void by_step(const Field& field, const std::vector<FieldRay>& list,
-             const std::vector<std::array<double, 4>>& right, const TransferFunction& function,
-             bool quick, Rows& rows) {
+// Samples at even steps: tables of a constant length, 2D and 3D. scalar_at(ray, t) is the scalar at
+// a distance t along a ray; as many rays as `right` has.
+template <class ScalarAt>
+void by_step(const ScalarAt& scalar_at, const std::vector<std::array<double, 4>>& right,
+             const TransferFunction& function, bool quick, Rows& rows) {
   double last_second = 0;
   std::size_t row = 0;
   for (const int samples : {8, 16, 32, 64, 128}) {
@@ -78,8 +78,8 @@ void by_step(const Field& field, const std::vector<FieldRay>& list,
     const SecondOrderTable second(
         function, {quick ? 32 : 96, 2, std::array{0.0f, 1.0f}, {}, static_cast<float>(2 * step)});
     ColorError of_first, of_second;
-    for (std::size_t r = 0; r < list.size(); ++r) {
-      const auto at = [&](int i) { return static_cast<float>(field(list[r].at(i * step))); };
+    for (std::size_t r = 0; r < right.size(); ++r) {
+      const auto at = [&](int i) { return static_cast<float>(scalar_at(r, i * step)); };
       Compositor by_first, by_second;
       for (int i = 0; i < samples; ++i)
         by_first.add(first.integrate(at(i), at(i + 1), static_cast<float>(step)));
@@ -143,6 +143,23 @@ std::string by_voxel(const TrilinearField& field, const std::vector<FieldRay>& l
   return markdown_table(rows);
 }
 
+// Rays along which the scalar is one polynomial of degree 2 from end to end, in [0, 1].
+std::vector<ScalarPolynomial> quadratic_rays(std::size_t count, std::uint64_t seed) {
+  std::mt19937_64 random(seed);
+  std::uniform_real_distribution<float> unit(0, 1);
+  std::vector<ScalarPolynomial> list;
+  while (list.size() < count) {
+    const auto scalar = ScalarPolynomial::quadratic(unit(random), unit(random), unit(random));
+    bool inside = true;
+    for (int i = 0; i <= 64; ++i) {
+      const double s = scalar(i / 64.0);
+      inside = inside && s >= 0 && s <= 1;
+    }
+    if (inside) list.push_back(scalar);
+  }
+  return list;
+}
+
 std::string along_rays(const TransferFunction& function, const IntegratorBenchOptions& options) {
   // 64^3 points, as are El Hajjar's.
   const TrilinearField trilinear(kSize, smooth_field);
@@ -153,10 +170,21 @@ std::string along_rays(const TransferFunction& function, const IntegratorBenchOp
     of_smooth.push_back(exact_color(smooth_field, ray, fine_places(), reference));
     of_trilinear.push_back(exact_color(trilinear, ray, voxel_borders(ray, kSize), reference));
   }
-  Rows rows{{"step, voxels", "smooth: first order", "second", "second at twice the step : first",
+  const auto quadratics = quadratic_rays(list.size(), options.seed);
+  std::vector<std::array<double, 4>> of_quadratics;
+  for (const ScalarPolynomial& scalar : quadratics) {
+    const PreciseColor color = reference.integrate_precisely(scalar, kRayLength);
+    of_quadratics.push_back({color.rgb[0], color.rgb[1], color.rgb[2], color.alpha});
+  }
+  Rows rows{{"step, voxels", "quadratic: first order", "second", "second at twice the step : first",
+             "smooth: first order", "second", "second at twice the step : first",
              "trilinear: first order", "second", "second at twice the step : first"}};
-  by_step(smooth_field, list, of_smooth, function, options.quick, rows);
-  by_step(trilinear, list, of_trilinear, function, options.quick, rows);
+  by_step([&](std::size_t r, double t) { return quadratics[r](t / kRayLength); }, of_quadratics,
+          function, options.quick, rows);
+  by_step([&](std::size_t r, double t) { return smooth_field(list[r].at(t)); }, of_smooth, function,
+          options.quick, rows);
+  by_step([&](std::size_t r, double t) { return trilinear(list[r].at(t)); }, of_trilinear, function,
+          options.quick, rows);
   return "### Second order against first, by step: RMS error of a ray\n\n" + markdown_table(rows) +
          "\n### Second order against first, voxel by voxel: error of a ray\n\n" +
          by_voxel(trilinear, list, of_trilinear, function, options.quick);

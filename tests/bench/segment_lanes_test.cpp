@@ -58,6 +58,37 @@ TEST(SegmentLanes, closed_form_is_within_its_bound_of_the_scalar_one) {
   }
 }
 
+TEST(SegmentLanes, a_segment_looks_the_same_whatever_is_beside_it) {
+  const TransferFunction function = tests::smooth_function();
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<float> anywhere(0, 1);
+  LaneSegments segments;
+  for (int i = 0; i < 16000; ++i) {
+    segments.s_in.push_back(anywhere(random));
+    segments.s_out.push_back(anywhere(random));
+    segments.length.push_back(tests::random_length(random, 1e-3f, 10));  // transparent to opaque
+  }
+  LaneSegments turned = segments;
+  for (auto* values : {&turned.s_in, &turned.s_out, &turned.length})
+    for (std::size_t i = 0; i < values->size(); i += 3)
+      std::swap((*values)[i], (*values)[values->size() - 1 - i]);
+  const PieceTable pieces(function);
+  LaneColors colors, others;
+  colors.resize(segments.size());
+  others.resize(segments.size());
+  closed_form_by_lanes(pieces, segments, colors);
+  closed_form_by_lanes(pieces, turned, others);
+  for (auto* values : {&others.r, &others.g, &others.b, &others.alpha})
+    for (std::size_t i = 0; i < values->size(); i += 3)
+      std::swap((*values)[i], (*values)[values->size() - 1 - i]);
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    ASSERT_EQ(colors.r[i], others.r[i]) << i;
+    ASSERT_EQ(colors.g[i], others.g[i]) << i;
+    ASSERT_EQ(colors.b[i], others.b[i]) << i;
+    ASSERT_EQ(colors.alpha[i], others.alpha[i]) << i;
+  }
+}
+
 TEST(SegmentLanes, empty_segments_are_transparent_beside_any_others) {
   constexpr float not_a_number = std::numeric_limits<float>::quiet_NaN();
   for (const auto& [name, function] : tests::all_functions()) {

@@ -82,6 +82,14 @@ for tolerance in 1e-2 1e-4 0; do
 done
 ok "an order that is given stays" "$plume" render mixed.vtu --tolerance 1e-4 --order 1 -o t.png --size 40x30 --stats t.json --quiet
 ok "and is said" json t.json "j['order']==1"
+ok "an integrator that is given, too" "$plume" render mixed.vtu --tolerance 1e-4 --integrator midpoint -o t.png --size 40x30 --stats t.json
+cp err.txt said.txt
+ok "and that it does not keep to the tolerance" grep -q "does not keep to --tolerance 0.0001: its error" said.txt
+ok "and by how much" json t.json "not j['tolerance']['kept'] and j['tolerance']['error_estimate']>1e-4==j['tolerance']['asked']"
+ok "what keeps to it is said to" "$plume" render mixed.vtu --tolerance 1e-2 --order adaptive -o t.png --size 40x30 --stats t.json --verbose
+ok "with the error of what was forced" json t.json "j['tolerance']['kept'] and 0<j['tolerance']['error_estimate']<=1e-2 and any('forced: the order, at an error of' in l for l in j['plan'])"
+ok "an orbit to a tolerance" "$plume" render body.vts --orbit 12 --tolerance 1e-2 -o orbit_%d.png --size 40x30 --stats t.json --quiet
+ok "keeps its plan" json t.json "sum(any('as for an earlier picture' in l for l in f['plan']) for f in j['frames'])>=6 and all(f['tolerance']['kept'] for f in j['frames'])"
 refused "a tolerance that is none" 2 "tolerance" "$plume" render mixed.vtu --tolerance -1 -o x.png
 ok "an EXR with channels" "$plume" render mixed.vtu -o a.exr --size 40x30 --quiet \
   --channels depth,optical_depth,cell_id,cell_count

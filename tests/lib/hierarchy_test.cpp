@@ -123,6 +123,54 @@ TEST(HierarchyPictures, OfTheGreatestAndTheLeastAreTheWalkers) {
     }
 }
 
+// Grids and cells of any kind; a further channel keeps packets from what they would do of volumes.
+TEST(HierarchyPictures, OfOtherCellsAreTheWalkers) {
+  struct Case {
+    const char* name;
+    int size;
+    double jitter, least_searched;  // a share of the rays
+    bool crooked = false;           // extreme values are then walked to
+  };
+  for (const Case& c : {Case{"twisted", 10, 0.4, 0.99}, Case{"box-hexahedra", 10, 0.2, 0.99},
+                        Case{"box-hexahedra", 8, 3, 0, true}, Case{"box-mixed", 8, 0.2, 0.99},
+                        Case{"box-mixed", 6, 2, 0, true}, Case{"box-polyhedra", 5, 0.2, 0.99},
+                        Case{"box-wedges", 8, 0.2, 0.99}, Case{"o-grid", 8, 0.2, 0.8, true},
+                        Case{"two-blocks", 6, 0.2, 0.3}}) {
+    Scene scene(generate(c.name, {c.size, c.jitter, 3}));
+    scene.set_classification(
+        surfaces({{at(scene, 0.3f), 0.4f, {1, 0, 0}}, {at(scene, 0.6f), 1, {0, 0, 1}}}));
+    for (const char* view : {"iso", "+x"})
+      for (const Mode mode : {Mode::volume, Mode::depth, Mode::maximum, Mode::minimum}) {
+        Camera camera = named_view(view, scene.bounds());
+        camera.parallel = mode == Mode::volume;
+        RenderSettings settings = small();
+        settings.mode = mode;
+        if (mode == Mode::volume) settings.channels = {"depth", "cell_id", "isovalue"};
+        const std::string which = std::string(c.name) + ", " + view;
+        const RenderStatistics statistics = expect_same(scene, camera, settings, which);
+        if (mode == Mode::maximum || mode == Mode::minimum) {
+          EXPECT_EQ(statistics.rays_searched > 0, !c.crooked) << which;
+          continue;
+        }
+        EXPECT_GE(static_cast<double>(statistics.rays_searched),
+                  c.least_searched * static_cast<double>(statistics.rays))
+            << which;
+      }
+  }
+}
+
+// Of small meshes packets make volume pictures faster.
+TEST(HierarchyPictures, OfSmallGridsAreMadeByPackets) {
+  Scene scene(generate("box-hexahedra", {10, 0.2, 3}));
+  scene.set_classification(surfaces({{at(scene, 0.5f), 1, {1, 1, 1}}}));
+  const Camera camera = named_view("iso", scene.bounds());
+  RenderSettings settings = small();
+  EXPECT_EQ(render(scene, camera, settings).statistics.rays_searched, 0u);
+  EXPECT_GT(render(scene, camera, settings).statistics.rays_in_packets, 0u);
+  settings.order = ScalarOrder::cubic;
+  EXPECT_EQ(render(scene, camera, settings).statistics.rays_searched, 0u);
+}
+
 TEST(HierarchyPictures, AnIsovalueChangesWithoutARebuild) {
   Scene scene(generate("box-tetrahedra", {12, 0.2, 3}));
   const Camera camera = named_view("iso", scene.bounds());
@@ -147,6 +195,15 @@ TEST(HierarchyPictures, OfANewFieldAreTheWalkers) {
     scene.set_classification(surfaces({{at(scene, 0.6f), 1, {1, 1, 1}}}));
     const RenderStatistics statistics = expect_same(scene, camera, small(), field);
     EXPECT_GT(statistics.rays_searched, statistics.rays / 2) << field;
+  }
+  const Mesh grid = generate("box-hexahedra", {8, 0.2, 3});
+  Scene grid_scene(grid, options);
+  RenderSettings depth = small();
+  depth.mode = Mode::depth;
+  for (const char* field : {"radius", "waves"}) {
+    grid_scene.set_field(grid, {field, {}});
+    grid_scene.set_classification(surfaces({{at(grid_scene, 0.6f), 1, {1, 1, 1}}}));
+    EXPECT_GT(expect_same(grid_scene, camera, depth, field).rays_searched, 0u) << field;
   }
 }
 

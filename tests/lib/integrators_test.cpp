@@ -123,6 +123,20 @@ TEST(Integrators, AFrameWithoutANewTransferFunctionBuildsNoTable) {
   EXPECT_EQ(line(first), line(second));
   EXPECT_NE(line(first), "none");
 
+  // Nor does a frame from elsewhere, of another size, mode, order, light or field.
+  const std::size_t built = scene.body().integrators.built();
+  Camera elsewhere = camera;
+  orbit(elsewhere, 40, 10);
+  RenderSettings others = settings;
+  others.width = 30;
+  render(scene, elsewhere, others);
+  others.order = ScalarOrder::cubic;
+  render(scene, elsewhere, others);
+  others.mode = Mode::integral;
+  render(scene, elsewhere, others);
+  EXPECT_EQ(scene.body().integrators.built(), built);
+  EXPECT_EQ(built, 1u);
+
   // A new one has its own table, at once: the picture is that of a new scene.
   TransferFunction other = colors();
   other.knots[2].optics.color = {0, 0, 1};
@@ -132,6 +146,10 @@ TEST(Integrators, AFrameWithoutANewTransferFunctionBuildsNoTable) {
   Scene fresh(hexahedra());
   fresh.set_transfer_function(other);
   EXPECT_EQ(render(fresh, camera, settings).image.rgba, changed.image.rgba);
+  // And back to the first, whose table is still there.
+  scene.set_transfer_function(colors());
+  EXPECT_EQ(render(scene, camera, settings).image.rgba, first.image.rgba);
+  EXPECT_EQ(scene.body().integrators.built(), 2u);
 }
 
 TEST(Integrators, SayWhatIsWrongWithTheirSettings) {

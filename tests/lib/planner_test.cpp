@@ -4,12 +4,16 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <limits>
 #include <string>
+#include <vector>
 
 #include "plume/datasets/generate.h"
 #include "plume/lib/plume.h"
 #include "plume/lib/render_modes.h"
+#include "plume/lib/spikes.h"
 #include "plume/mesh/error.h"
 
 namespace plume::test {
@@ -57,14 +61,18 @@ TEST(Planner, TakesTheCheapestOrderThatWillDo) {
   for (const double asked : {0.5, 1e-2, 1e-4, 1e-6}) {
     RenderSettings settings = settings_of(Mode::volume);
     settings.tolerance = Tolerance{asked};
-    std::vector<std::string> reasons;
-    const RenderSettings plan = plan_for(scene, camera, settings, reasons);
-    EXPECT_FALSE(plan.tolerance);
-    EXPECT_GE(plan.order, before) << text_of(reasons);
-    before = plan.order;
+    const Plan plan = plan_for(scene, camera, settings);
+    EXPECT_FALSE(plan.settings.tolerance);
+    EXPECT_GE(plan.settings.order, before) << text_of(plan.reasons);
+    EXPECT_TRUE(plan.keeps);
+    EXPECT_LE(plan.error, asked);
+    before = plan.settings.order;
+    if (asked == 1e-6) {
+      EXPECT_EQ(plan.settings.integrator.kind, IntegratorKind::reference);
+    }
     if (asked == 0.5) {
-      EXPECT_EQ(plan.order, ScalarOrder::linear) << text_of(reasons);
-      EXPECT_FALSE(plan.scalar_twin);
+      EXPECT_EQ(plan.settings.order, ScalarOrder::linear) << text_of(plan.reasons);
+      EXPECT_FALSE(plan.settings.scalar_twin);
     }
   }
   EXPECT_GT(before, ScalarOrder::linear);
@@ -75,14 +83,13 @@ TEST(Planner, LooksForNoOrderWhereCellsAreLinear) {
   const Camera camera = named_view("iso", scene.bounds());
   RenderSettings settings = settings_of(Mode::volume);
   settings.tolerance = Tolerance{1e-3};
-  std::vector<std::string> reasons;
-  const RenderSettings plan = plan_for(scene, camera, settings, reasons);
-  EXPECT_EQ(plan.order, ScalarOrder::linear);
-  EXPECT_GT(plan.early_termination, 1e-4);
-  EXPECT_EQ(text_of(reasons).find("order"), std::string::npos);
+  const Plan plan = plan_for(scene, camera, settings);
+  EXPECT_EQ(plan.settings.order, ScalarOrder::linear);
+  EXPECT_GT(plan.settings.early_termination, 1e-4);
+  EXPECT_EQ(text_of(plan.reasons).find("order"), std::string::npos);
   // Half of a tolerance that packets' rounding would use up.
   settings.tolerance = Tolerance{1e-5};
-  EXPECT_TRUE(plan_for(scene, camera, settings, reasons).scalar_twin);
+  EXPECT_TRUE(plan_for(scene, camera, settings).settings.scalar_twin);
 }
 
 TEST(Planner, NoToleranceAtAllIsTheReference) {
@@ -103,12 +110,118 @@ TEST(Planner, LeavesWhatIsGiven) {
   settings.early_termination = 0.03;
   for (const double asked : {0.0, 1e-4}) {
     settings.tolerance = Tolerance{asked, false, false, false};
-    std::vector<std::string> reasons;
-    const RenderSettings plan = plan_for(scene, camera, settings, reasons);
+    const RenderSettings plan = plan_for(scene, camera, settings).settings;
     EXPECT_EQ(plan.order, ScalarOrder::quadratic);
     EXPECT_EQ(plan.integrator.kind, IntegratorKind::midpoint);
     EXPECT_EQ(plan.integrator.samples, 3);
     EXPECT_EQ(plan.early_termination, 0.03);
+  }
+}
+
+TEST(Planner, SaysTheErrorOfWhatIsForced) {
+  const Scene twisted(generate("twisted", {6, 0.3, 3}));
+  const Scene tetrahedra(generate("box-tetrahedra", {6, 0.3, 3}));
+  struct Forced {
+    const Scene* scene;
+    Mode mode;
+    ScalarOrder order;
+    IntegratorSettings integrator;
+    Tolerance tolerance;  // which of them are forced
+  };
+  const IntegratorSettings midpoint{IntegratorKind::midpoint, 1, {}, {}};
+  const IntegratorSettings closed{};
+  const ScalarOrder linear = ScalarOrder::linear;
+  for (const Forced& forced :
+       {Forced{&twisted, Mode::volume, linear, closed, {1e-3, false, true, true}},
+        Forced{&twisted, Mode::integral, linear, closed, {1e-3, false, true, true}},
+        Forced{&twisted, Mode::volume, linear, midpoint, {1e-3, true, false, true}},
+        Forced{&twisted, Mode::volume, linear, midpoint, {1e-3, false, false, true}},
+        Forced{&tetrahedra, Mode::volume, linear, midpoint, {1e-3, true, false, true}},
+        Forced{&tetrahedra, Mode::volume, linear, closed, {1e-3, true, true, false}},
+        Forced{&twisted, Mode::volume, ScalarOrder::adaptive, closed, {0.1, false, true, true}},
+        Forced{&tetrahedra, Mode::volume, linear, closed, {1e-2, true, false, true}}}) {
+    const Scene& scene = *forced.scene;
+    const Camera camera = named_view("iso", scene.bounds());
+    RenderSettings settings = settings_of(forced.mode);
+    settings.width = 96;  // more than a pilot looks at
+    settings.height = 72;
+    settings.order = forced.order;
+    settings.integrator = forced.integrator;
+    settings.early_termination = 0.05;
+    settings.tolerance = forced.tolerance;
+    const RenderResult result = render(scene, camera, settings);
+    const RenderResult right = render(scene, camera, reference_settings(settings));
+    const double error =
+        greatest_difference(result.image, right.image, forced.mode, shade_width(right.statistics));
+    const double estimate = result.statistics.error_estimate.value();
+    const double asked = forced.tolerance.max_error;
+    SCOPED_TRACE(text_of(result.statistics.plan));
+    EXPECT_EQ(result.statistics.keeps_tolerance, estimate <= asked);
+    EXPECT_EQ(result.statistics.keeps_tolerance, error <= asked);
+    EXPECT_LE(error, estimate);
+    EXPECT_LE(estimate, 10 * error + asked);
+    EXPECT_NE(text_of(result.statistics.plan).find("forced"), std::string::npos);
+    EXPECT_EQ(text_of(result.statistics.plan).find("DOES NOT KEEP") == std::string::npos,
+              error <= asked);
+  }
+}
+
+// Narrow spikes, each as narrow as 1% of the field's range.
+TransferFunction narrow_spikes(const Scene& scene, unsigned seed) {
+  const auto& colors = scene.default_color_map().colors;
+  const double low = colors.front().x, range = colors.back().x - low;
+  TransferFunction made;
+  std::uint32_t random = seed;
+  auto next = [&] {
+    random = 1664525 * random + 1013904223;
+    return static_cast<float>(random >> 8) / static_cast<float>(1 << 24);
+  };
+  auto add = [&](double at, double depth) {
+    made.knots.push_back(
+        {static_cast<float>(low + range * at),
+         {static_cast<float>(depth / scene.bounds().diagonal()), {next(), next(), next()}}});
+  };
+  add(0, 0);
+  for (const double at : {0.2, 0.5, 0.8}) {
+    const double middle = at + 0.1 * next();
+    add(middle - 0.005, 0);
+    add(middle, 200);
+    add(middle + 0.005, 0);
+  }
+  add(1, 0);
+  return made;
+}
+
+TEST(Planner, KnowsNarrowSpikes) {
+  auto of = [](const std::vector<std::array<float, 2>>& knots) {
+    TransferFunction made;
+    for (const auto& [scalar, extinction] : knots) made.knots.push_back({scalar, {extinction, {}}});
+    return narrowest_spike(made);
+  };
+  const double never = std::numeric_limits<double>::infinity();
+  EXPECT_EQ(of({{0, 1}}), never);
+  EXPECT_EQ(of({{0, 1}, {1, 5}, {2, 5}}), never);
+  EXPECT_EQ(of({{0, 5}, {1, 0}, {2, 4}}), never);                            // a valley
+  EXPECT_EQ(of({{0, 0}, {1, 0}, {1.25f, 8}, {1.5f, 0}, {9, 0}}), 0.5);       // a spike
+  EXPECT_EQ(of({{0, 0}, {2, 0}, {2, 8}, {2.25f, 8}, {2.25f, 0}}), 0.25);     // with steps
+  EXPECT_EQ(of({{0, 0}, {1, 0}, {1.5f, 0.5f}, {2, 0}, {4, 8}, {8, 0}}), 6);  // one too low to count
+}
+
+TEST(Planner, IsNotFooledByNarrowSpikes) {
+  Scene scene(generate("twisted", {12, 0.3, 3}));
+  scene.set_transfer_function(narrow_spikes(scene, 1));
+  const Camera camera = named_view("iso", scene.bounds());
+  for (const Mode mode : {Mode::volume, Mode::optical_depth}) {
+    RenderSettings settings = settings_of(mode);
+    settings.width = settings.height = 96;
+    const RenderResult right = render(scene, camera, reference_settings(settings, 1e-2));
+    const double width = shade_width(right.statistics);
+    for (const double asked : {0.3, 0.03}) {
+      settings.tolerance = Tolerance{asked};
+      const RenderResult result = render(scene, camera, settings);
+      EXPECT_LE(greatest_difference(result.image, right.image, mode, width), asked)
+          << text_of(result.statistics.plan);
+    }
   }
 }
 

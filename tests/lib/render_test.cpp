@@ -133,11 +133,21 @@ TEST(Render, OpticalDepthAndCellCountAreTheChannelsOfThoseNames) {
     shot.settings.channels = {"optical_depth", "cell_count"};
     const Image channels = render(shot.scene, shot.camera, shot.settings).image;
     shot.settings.channels.clear();
+    RenderSettings settings_by_ray = shot.settings;
+    settings_by_ray.scalar_twin = true;
     for (const auto& [mode, name] :
          {std::pair{Mode::optical_depth, "optical_depth"}, {Mode::cell_count, "cell_count"}}) {
       shot.settings.mode = mode;
       const Image image = render(shot.scene, shot.camera, shot.settings).image;
-      EXPECT_EQ(image.channel(name)->values, channels.channel(name)->values) << name;
+      // Further channels are made ray by ray; this one by packets, in single precision.
+      const float bound = mode == Mode::optical_depth ? 1e-5f : 0;
+      for (std::size_t i = 0; i < image.channel(name)->values.size(); ++i)
+        ASSERT_NEAR(image.channel(name)->values[i], channels.channel(name)->values[i],
+                    bound * (1 + channels.channel(name)->values[i]))
+            << name;
+      settings_by_ray.mode = mode;
+      const Image by_ray = render(shot.scene, shot.camera, settings_by_ray).image;
+      EXPECT_EQ(by_ray.channel(name)->values, channels.channel(name)->values) << name;
       float greatest = 0;
       for (const float value : image.channel(name)->values) greatest = std::max(greatest, value);
       ASSERT_GT(greatest, 0);

@@ -109,6 +109,8 @@ TEST(SeveralScenes, ShowTheSameNumbersInAllModes) {
       settings.mode = mode;
       settings.order = order;
       settings.scalar_tolerance = 1e-6;  // of a range, which is not the same in the parts
+      // Packets cut cells that bend too much for so small a tolerance into more linear parts.
+      settings.scalar_twin = true;
       settings.channels = {"depth", "optical_depth", "cell_count"};
       const Image one = render(whole, askew(whole.bounds()), settings).image;
       const Image two = render(parts.pointers(), askew(whole.bounds()), settings).image;
@@ -133,6 +135,8 @@ TEST(SeveralScenes, OfHigherOrderAreTheWholeMesh) {
     RenderSettings settings = exact(40);
     settings.order = order;
     settings.scalar_tolerance = 1e-6;  // of a range, which is not the same in the parts
+    // Packets cut cells that bend too much for so small a tolerance into more linear parts.
+    settings.scalar_twin = true;
     EXPECT_LE(worst_difference(render(whole, askew(whole.bounds()), settings).image,
                                render(parts.pointers(), askew(whole.bounds()), settings).image),
               kBound);

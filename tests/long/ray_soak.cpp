@@ -35,13 +35,16 @@ struct Made {
         fills_bounds(fills),
         mesh(std::move(source)),
         bounds(check_structure(mesh)),
-        form(make(mesh, bounds)),
+        form(make(n, mesh, bounds)),
         boundary(form) {}
 
  private:
-  static Form make(const Mesh& mesh, const Bounds& bounds) {
+  static Form make([[maybe_unused]] const std::string& name, const Mesh& mesh,
+                   const Bounds& bounds) {
     if constexpr (std::is_same_v<Form, WalkableTets>) {
-      return make_walkable_tets(mesh, select_field(mesh), bounds, false);
+      const bool compact = name.find("compact") != std::string::npos;
+      return make_walkable_tets(mesh, select_field(mesh), bounds, false, false,
+                                compact ? TetLinks::compact : TetLinks::whole);
     } else if constexpr (std::is_same_v<Form, WalkableGrid>) {
       return make_walkable_grid(mesh, select_field(mesh), bounds);
     } else {

@@ -114,6 +114,8 @@ const std::vector<SoakSource>& soak_sources() {
       made("jittered", true, [] { return box(12, 0.2); }),
       made("jittered, finer", true, [] { return box(20, 0.25); }),
       made("inverted", true, [] { return box(10, 3); }),
+      made("jittered, compact", true, [] { return box(12, 0.2); }),
+      made("inverted, compact", true, [] { return box(10, 3); }),
       made("tangled", true, [] { return box(5, 10); }),
       made("slivers", true,
            [] {

@@ -117,7 +117,7 @@ double enclosed(const WalkableTets& tets) {
 // For every cell, from each of its faces: across every other face lies the neighbour that the whole
 // links name, and the apex is the point that they name.
 TEST(WalkableTets, CompactCellsSayOfTheirNeighborsWhatWholeLinksSay) {
-  for (const char* name : {"box-tetrahedra", "ball"}) {
+  for (const char* name : {"box-tetrahedra", "ball-tetrahedra"}) {
     const Mesh mesh = generate(name, {5, 0.2, 1});
     const WalkableTets tets = tets_of(mesh);
     const WalkableTets compact = make_walkable_tets(mesh, select_field(mesh), check_structure(mesh),

@@ -42,6 +42,60 @@ TEST(IntegratorCache, builds_anew_only_where_something_changed) {
   EXPECT_EQ(std::get<PreintegratedTable>(*third).bytes(), 17u * 17 * 8 * 16);
 }
 
+TEST(IntegratorCache, keeps_both_of_two_that_are_asked_for_in_turns) {
+  IntegratorCache cache;
+  IntegratorSettings larger = small_table(), second = small_table();
+  larger.table.scalar_count = 24;
+  second.kind = IntegratorKind::second_order_table;
+  second.second_order_table = {8, 4, {}, {}, {}};
+  for (int turn = 0; turn < 5; ++turn)
+    for (const auto& function : {tests::smooth_function(), tests::step_function()})
+      for (const IntegratorSettings& settings : {larger, second}) {
+        const auto given = cache.get(function, settings);
+        const auto again = cache.get(function, settings);
+        EXPECT_EQ(given, again);
+        // Neither is given out for another.
+        const bool is_second = std::holds_alternative<SecondOrderTable>(*given);
+        EXPECT_EQ(is_second, settings.kind == IntegratorKind::second_order_table);
+      }
+  EXPECT_EQ(cache.built(), 4u);
+}
+
+TEST(IntegratorCache, drops_the_one_that_was_not_used_for_longest) {
+  IntegratorCache cache;
+  auto size = [](int count) {
+    IntegratorSettings settings = small_table();
+    settings.table.scalar_count = count;
+    return settings;
+  };
+  const TransferFunction function = tests::smooth_function();
+  for (const int count : {8, 9, 10, 11}) cache.get(function, size(count));
+  cache.get(function, size(8));   // used again
+  cache.get(function, size(12));  // in the place of 9
+  EXPECT_EQ(cache.built(), 5u);
+  for (const int count : {8, 10, 11, 12}) cache.get(function, size(count));
+  EXPECT_EQ(cache.built(), 5u);
+  cache.get(function, size(9));
+  EXPECT_EQ(cache.built(), 6u);
+}
+
+TEST(IntegratorCache, holds_no_more_than_64_megabytes_besides_the_last) {
+  IntegratorCache cache;
+  auto size = [](int count) {
+    IntegratorSettings settings = small_table();
+    settings.table = {count, 32, {}, {}, {}};
+    return settings;
+  };
+  const TransferFunction function = tests::smooth_function();
+  // 33.5 MB each: one besides the last.
+  std::weak_ptr<const Integrator> first = cache.get(function, size(256));
+  std::weak_ptr<const Integrator> second = cache.get(function, size(255));
+  EXPECT_FALSE(first.expired());
+  cache.get(function, size(254));
+  EXPECT_TRUE(first.expired());
+  EXPECT_FALSE(second.expired());
+}
+
 TEST(IntegratorCache, gives_every_thread_what_it_asked_for) {
   IntegratorCache cache;
   const std::vector<TransferFunction> functions{tests::smooth_function(), tests::step_function()};

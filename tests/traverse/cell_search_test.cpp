@@ -14,7 +14,9 @@
 
 #include "hwy/targets.h"
 #include "plume/datasets/generate.h"
+#include "plume/mesh/boundary_clusters.h"
 #include "plume/mesh/leaf_cells.h"
+#include "plume/traverse/leaf_cache.h"
 #include "plume/traverse/packets.h"
 #include "traced.h"
 
@@ -246,6 +248,23 @@ TEST(CellSearch, IsTheSameOnEveryInstructionSet) {
   }
 }
 
+// All nodes above each face at the boundary have its points in their boxes.
+void expect_boundary_held(const WalkableTets& mesh, const ClusterTree& tree) {
+  for (std::size_t face = 0; face < mesh.boundary.size(); ++face)
+    for (const std::uint32_t point : mesh.boundary[face].loop) {
+      std::size_t child = face / kLeafFaces;
+      for (std::uint32_t level = 0; level < tree.depth(); ++level) {
+        const auto& node = tree.nodes[tree.levels[level] + child / 8];
+        EXPECT_LE(node.least[child % 8], node.greatest[child % 8]);
+        for (std::size_t a = 0; a < 3; ++a) {
+          EXPECT_LE(node.low[a][child % 8], mesh.points[point].position[a]);
+          EXPECT_GE(node.high[a][child % 8], mesh.points[point].position[a]);
+        }
+        child /= 8;
+      }
+    }
+}
+
 // Boxes and ranges hold everything; what is known of a cell is what it is.
 TEST(CellHierarchy, HoldsItsCells) {
   for (const int size : {1, 3, 13}) {
@@ -257,19 +276,15 @@ TEST(CellHierarchy, HoldsItsCells) {
     LeafCells cells;
     for (std::uint32_t cell = 0; cell < mesh.cell_count(); ++cell) {
       const std::size_t leaf = cell / kLeafCells, place = cell % kLeafCells;
-      cells.read(mesh, static_cast<std::uint32_t>(leaf), hierarchy.leaves[leaf].first_boundary);
+      cells.read(mesh, static_cast<std::uint32_t>(leaf));
       const auto points = mesh.points_of(cell);
-      bool boundary = false;
       for (std::size_t r = 0; r < 4; ++r) {
-        const WalkableTets::Link& link = mesh.cells[cell][r];
-        boundary = boundary || link.cell == kNone;
-        EXPECT_EQ(cells.open_faces[place] >> r & 1, link.cell == kNone ? 1 : 0);
         const WalkablePoint& p = mesh.points[points[r]];
         EXPECT_EQ(cells.scalar[r][place], p.scalar);
         // All nodes above.
         std::size_t child = leaf;
-        for (std::size_t level = 0; level + 1 < hierarchy.levels.size(); ++level) {
-          const auto& node = hierarchy.nodes[hierarchy.levels[level] + child / 8];
+        for (std::uint32_t level = 0; level < hierarchy.cells.depth(); ++level) {
+          const auto& node = hierarchy.cells.nodes[hierarchy.cells.levels[level] + child / 8];
           for (std::size_t a = 0; a < 3; ++a) {
             EXPECT_LE(node.low[a][child % 8], p.position[a]);
             EXPECT_GE(node.high[a][child % 8], p.position[a]);
@@ -279,9 +294,8 @@ TEST(CellHierarchy, HoldsItsCells) {
           child /= 8;
         }
       }
-      const bool special = (hierarchy.leaves[leaf].special >> place & 1) != 0;
-      EXPECT_TRUE(special || !boundary);
     }
+    expect_boundary_held(mesh, hierarchy.boundary);
   }
 }
 

@@ -268,39 +268,65 @@ TEST(EdgePackets, WalkAsFewRaysAsOne) {
 
 TEST(CellPackets, WalkAsFewRaysAsOne) { expect_cell_twins(generate("box-mixed", {3, 0.2, 5}), 3); }
 
-// Three coordinates next to zero have a product that single precision does not know.
-void expect_needle_measured(double width) {
-  SCOPED_TRACE(width);
-  Mesh mesh = generate("box-tetrahedra", {1, 0, 1});
+// A box of this width and length 1, for rays that run along it.
+Mesh needle(const std::string& generator, double width) {
+  Mesh mesh = generate(generator, {1, 0, 1});
   std::vector<double> points;
   for (std::size_t p = 0; p < mesh.point_count(); ++p)
     for (std::size_t a = 0; a < 3; ++a)
       points.push_back((mesh.points.at<double>(3 * p + a) - 0.5) * (a == 2 ? 1 : width));
   mesh.points = Array::own(std::move(points));
-  const WalkableTets tets =
-      make_walkable_tets(mesh, select_field(mesh), check_structure(mesh), false);
-  const BoundaryIndex<TetWalker> boundary(tets);
+  return mesh;
+}
+
+template <class Walker>
+void expect_needle_measured(const typename Walker::Mesh& mesh, double width) {
+  SCOPED_TRACE(width);
+  const BoundaryIndex<Walker> boundary(mesh);
   ShearedFrame frame;
-  ASSERT_TRUE(frame.set({{0.1 * width, -0.2 * width, -3}, {0, 0, 1}}, tets.frame));
-  TetWalker walker(tets, frame);
-  const auto entry = Entries<TetWalker>().first(boundary, walker, frame);
+  ASSERT_TRUE(frame.set({{0.1 * width, -0.2 * width, -3}, {0, 0, 1}}, mesh.frame));
+  Walker walker(mesh, frame);
+  const auto entry = Entries<Walker>().first(boundary, walker, frame);
   ASSERT_TRUE(entry);
+  walker.enter(mesh.boundary[entry->boundary], entry->rank);
+  float s_out = 0;
+  do {
+    const auto exit = walker.leave();
+    ASSERT_TRUE(exit);
+    s_out = exit->scalar;
+  } while (walker.advance());
   const InstructionSets sets;
   for (const std::int64_t target : sets.each) {
     limit_packet_instruction_sets(target);
     SCOPED_TRACE(packet_instruction_set());
-    Starts<TetStart> feeder(
-        {make_start(tets, frame, tets.boundary[entry->boundary], entry->place, entry->rank, 0)});
+    Starts<StartOf<typename Walker::Mesh>> feeder(
+        {make_start(mesh, frame, mesh.boundary[entry->boundary], entry->place, entry->rank, 0)});
     Segments found(1);
-    walk_segments(tets, frame.axis(), feeder, found);
+    walk_segments(mesh, frame.axis(), feeder, found);
     double sum = 0;
     for (const PacketSegment& s : found.of_ray[0]) sum += s.length;
     EXPECT_NEAR(sum, 1, 4e-6);
+    ASSERT_FALSE(found.of_ray[0].empty());
+    EXPECT_NEAR(found.of_ray[0].back().s_out, s_out, 1e-6);
   }
 }
 
+// Three coordinates next to zero have a product that single precision does not know.
 TEST(TetPackets, MeasureANeedleThatTheRayRunsThrough) {
-  for (const double width : {1e-8, 1e-14, 1e-16, 1e-18}) expect_needle_measured(width);
+  for (const double width : {1e-8, 1e-14, 1e-16, 1e-18}) {
+    const Mesh mesh = needle("box-tetrahedra", width);
+    expect_needle_measured<TetWalker>(
+        make_walkable_tets(mesh, select_field(mesh), check_structure(mesh), false), width);
+  }
+}
+
+// Products of two products must neither underflow.
+TEST(GridPackets, MeasureANeedleThatTheRayRunsThrough) {
+  for (const double width : {1e-2, 1e-5, 1e-8, 1e-11, 1e-14}) {
+    const Mesh mesh = needle("box-hexahedra", width);
+    expect_needle_measured<GridWalker>(
+        make_walkable_grid(mesh, select_field(mesh), check_structure(mesh)), width);
+  }
 }
 
 }  // namespace

@@ -188,8 +188,8 @@ thesis' incremental walk does without: as such they are no measure of it.
 
 std::string thesis_table_6_10(const PaperOptions& options) {
   return head("Page 158. ") +
-         R"(The thesis' hybrid. Initial: the first hexahedra alone. Hexahedra have no hierarchy of cells here: isosurfaces are found by
-packets, maxima ray by ray.
+         R"(The thesis' hybrid. Initial: the first hexahedra alone. Isosurfaces of so few hexahedra are found by
+packets, maxima through a hierarchy of cells.
 
 )" +
          table(Family::hexahedra, options, kAllKinds,

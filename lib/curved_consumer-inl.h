@@ -1,0 +1,83 @@
+// What compositing a volume above order 1 does with the segments of packets (see PacketWalk).
+// Compiled once for each instruction set: to be included after hwy/foreach_target.h alone.
+
+// clang-format off
+#if defined(PLUME_LIB_CURVED_CONSUMER_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLUME_LIB_CURVED_CONSUMER_INL_H_
+#undef PLUME_LIB_CURVED_CONSUMER_INL_H_
+#else
+#define PLUME_LIB_CURVED_CONSUMER_INL_H_
+#endif
+// clang-format on
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <type_traits>
+
+#include "hwy/highway.h"
+#include "plume/lib/composite_by-inl.h"
+#include "plume/lib/curved_packets.h"
+#include "plume/lib/volume_consumer-inl.h"
+#include "plume/preint/classified_form-inl.h"
+#include "plume/preint/curved_lanes-inl.h"
+#include "plume/traverse/inner_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace plume {
+namespace HWY_NAMESPACE {
+
+// VolumeConsumer with kInner scalars inside of each cell.
+template <std::size_t kInner, class Mesh, class Pieces>
+struct CurvedConsumer : VolumeConsumer<Pieces> {
+  using Base = VolumeConsumer<Pieces>;
+
+  InnerLanes<Mesh> inside;
+  float tolerance;
+
+  CurvedConsumer(const Base& linear, const Mesh& mesh, int axis, float off_by)
+      : Base(linear), inside(mesh, axis), tolerance(off_by) {}
+
+  void begin(std::size_t packet, std::size_t lane, const PacketStart& start) {
+    Base::begin(packet, lane, start);
+    inside.begin(packet, lane, start);
+  }
+  HWY_INLINE void ends_at(std::size_t packet, VF z) { inside.ends_at(packet, z); }
+
+  // Not inlined: it is long, and walks have several copies of where it is called.
+  HWY_NOINLINE MF visit(std::size_t packet, MF active, VF length, VF s_in, VF s_out, VU cells) {
+    const DF d;
+    VF inner[kInner];
+    const MF curved = inside.template At<kInner>(packet, active, cells, inner);
+    const optics::CurvedLanes<kInner> scalar(curved, s_in, s_out, inner);
+    MF done = hn::MaskFromVec(hn::Zero(d));
+    scalar.ForEachLinearPart(active, length, tolerance, [&](MF on, VF from, VF to, VF part) {
+      done = Base::visit(packet, on, part, from, to, cells);
+    });
+    return done;
+  }
+};
+
+template <class Mesh>
+void CompositeCurved(const Mesh& mesh, const CurvedPackets& packets, int axis,
+                     PacketFeeder& feeder) {
+  // Behind a transmittance of 1e-9 nothing changes a float between 0 and 1.
+  const float enough = std::max(packets.early_termination, optics::kInvisible);
+  const float tolerance = std::max(packets.tolerance, std::numeric_limits<float>::min());
+  WithTable(packets.volume->pieces, [&](const auto& table) {
+    using Table = std::decay_t<decltype(table)>;
+    const VolumeConsumer<Table> linear{*packets.volume, table, nullptr, enough, packets.colors};
+    auto walk = [&](auto consumer) { Walk(mesh, axis, consumer, feeder); };
+    if (packets.order == ScalarOrder::quadratic)
+      walk(CurvedConsumer<1, Mesh, Table>(linear, mesh, axis, tolerance));
+    else
+      walk(CurvedConsumer<2, Mesh, Table>(linear, mesh, axis, tolerance));
+  });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace plume
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard

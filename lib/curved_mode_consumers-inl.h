@@ -1,0 +1,66 @@
+// What the modes that show one number a ray do with the segments of packets above order 1. Compiled
+// once for each instruction set: to be included after hwy/foreach_target.h alone.
+
+// clang-format off
+#if defined(PLUME_LIB_CURVED_MODE_CONSUMERS_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLUME_LIB_CURVED_MODE_CONSUMERS_INL_H_
+#undef PLUME_LIB_CURVED_MODE_CONSUMERS_INL_H_
+#else
+#define PLUME_LIB_CURVED_MODE_CONSUMERS_INL_H_
+#endif
+// clang-format on
+
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+#include "hwy/highway.h"
+#include "plume/lib/mode_consumers-inl.h"
+#include "plume/preint/curved_lanes-inl.h"
+#include "plume/traverse/inner_lanes-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace plume {
+namespace HWY_NAMESPACE {
+
+// A mode's consumer that is given polynomials, with kInner scalars inside of each cell.
+template <std::size_t kInner, class Mesh, class Base>
+struct CurvedMode : Base {
+  InnerLanes<Mesh> inside;
+
+  CurvedMode(const Base& base, const Mesh& mesh, int axis) : Base(base), inside(mesh, axis) {}
+
+  void begin(std::size_t packet, std::size_t lane, const PacketStart& start) {
+    Base::begin(packet, lane, start);
+    inside.begin(packet, lane, start);
+  }
+  HWY_INLINE void ends_at(std::size_t packet, VF z) {
+    inside.ends_at(packet, z);
+    if constexpr (requires(Base base) { base.ends_at(packet, z); }) Base::ends_at(packet, z);
+  }
+  // Not inlined: it is long, and walks have several copies of where it is called.
+  HWY_NOINLINE MF visit(std::size_t packet, MF active, VF way, VF s_in, VF s_out, VU cells) {
+    VF inner[kInner];
+    const MF curved = inside.template At<kInner>(packet, active, cells, inner);
+    const optics::CurvedLanes<kInner> scalar(curved, s_in, s_out, inner);
+    return Base::visit_curved(packet, active, way, s_in, s_out, scalar);
+  }
+};
+
+template <class Mesh>
+void ReduceCurved(const Mesh& mesh, const ModePackets& packets, int axis, PacketFeeder& feeder) {
+  ReduceBy<false>(packets, {}, [&](const auto& base) {
+    using Base = std::decay_t<decltype(base)>;
+    auto walk = [&](auto consumer) { Walk(mesh, axis, consumer, feeder); };
+    if (packets.order == ScalarOrder::quadratic)
+      walk(CurvedMode<1, Mesh, Base>(base, mesh, axis));
+    else
+      walk(CurvedMode<2, Mesh, Base>(base, mesh, axis));
+  });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace plume
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard

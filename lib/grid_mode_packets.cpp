@@ -1,0 +1,34 @@
+#include "plume/lib/mode_packets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "plume/lib/grid_mode_packets.cpp"
+#include "hwy/foreach_target.h"
+#include "plume/lib/mode_consumers-inl.h"
+#include "plume/traverse/grid_steps-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace plume {
+namespace HWY_NAMESPACE {
+
+void ReduceGrid(const WalkableGrid& mesh, const ModePackets& packets, int axis,
+                PacketFeeder& feeder) {
+  ReduceBy<true>(packets, mesh.cell_values,
+                 [&](auto& consumer) { Walk(mesh, axis, consumer, feeder); });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace plume
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace plume {
+
+HWY_EXPORT(ReduceGrid);
+
+void reduce_packets(const WalkableGrid& mesh, const ModePackets& packets, int axis,
+                    PacketFeeder& feeder) {
+  HWY_DYNAMIC_DISPATCH(ReduceGrid)(mesh, packets, axis, feeder);
+}
+
+}  // namespace plume
+#endif  // HWY_ONCE

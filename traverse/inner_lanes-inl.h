@@ -1,0 +1,342 @@
+// The scalar inside of hexahedral cells, a segment a lane: what orders 2 and 3 need. Compiled once
+// for each instruction set: to be included after hwy/foreach_target.h alone.
+
+// clang-format off
+#if defined(PLUME_TRAVERSE_INNER_LANES_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef PLUME_TRAVERSE_INNER_LANES_INL_H_
+#undef PLUME_TRAVERSE_INNER_LANES_INL_H_
+#else
+#define PLUME_TRAVERSE_INNER_LANES_INL_H_
+#endif
+// clang-format on
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "hwy/highway.h"
+#include "plume/mesh/walkable_cells.h"
+#include "plume/mesh/walkable_grid.h"
+#include "plume/traverse/inner_scalar.h"
+#include "plume/traverse/lane_loads-inl.h"
+#include "plume/traverse/packet_walk-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace plume {
+namespace HWY_NAMESPACE {
+
+// The corners of the lanes' cells: corner a + 2b + 4c has the parameters (a, b, c).
+class GridCorners {
+ public:
+  explicit GridCorners(const WalkableGrid& mesh)
+      : points_(mesh.points.data()->position),
+        dimensions_{mesh.dimensions[0], mesh.dimensions[1]} {}
+
+  // Which lanes have none.
+  HWY_INLINE MF Load(VU cells, FourFloats (&corner)[8]) const {
+    const DU du;
+    const VU row = Quotient(cells, dimensions_[0] - 1), plane = Quotient(row, dimensions_[1] - 1);
+    const VU ni = hn::Set(du, dimensions_[0]);
+    // i + ni (j + nj k), where the cell is i + (ni - 1) (j + (nj - 1) k).
+    const VU first = hn::Add(hn::Add(cells, row), hn::Mul(ni, plane));
+    for (std::uint32_t c = 0; c < 8; ++c) {
+      const std::uint32_t further =
+          (c & 1) + (c >> 1 & 1) * dimensions_[0] + (c >> 2) * dimensions_[0] * dimensions_[1];
+      HWY_ALIGN std::uint32_t pairs[kMaxLanes];
+      hn::Store(hn::ShiftLeft<1>(hn::Add(first, hn::Set(du, further))), du, pairs);
+      corner[c] = LoadFour(points_, pairs);
+    }
+    return hn::MaskFromVec(hn::Zero(DF()));
+  }
+
+ private:
+  // Of numbers below 2^31. Two guesses by single precision leave an error of one.
+  static HWY_INLINE VU Quotient(VU number, std::uint32_t divisor) {
+    const DF d;
+    const DU du;
+    const hn::RebindToSigned<DF> di;
+    const auto by = hn::Set(di, static_cast<std::int32_t>(divisor));
+    const VF inverse = hn::Set(d, 1.0f / static_cast<float>(divisor));
+    const auto n = hn::BitCast(di, number);
+    auto guess = [&](auto left) {
+      return hn::ConvertTo(di, hn::Mul(hn::ConvertTo(d, left), inverse));
+    };
+    auto quotient = guess(n);
+    quotient = hn::Add(quotient, guess(hn::Sub(n, hn::Mul(quotient, by))));
+    const auto left = hn::Sub(n, hn::Mul(quotient, by));
+    // A mask is -1 where it holds.
+    quotient = hn::Add(quotient, hn::VecFromMask(di, hn::Lt(left, hn::Zero(di))));
+    quotient = hn::Sub(quotient, hn::VecFromMask(di, hn::Not(hn::Lt(left, by))));
+    return hn::BitCast(du, quotient);
+  }
+
+  const float* points_;
+  const std::uint32_t dimensions_[2];
+};
+
+// A wedge, a pyramid or a tetrahedron is a hexahedron some of whose corners coincide, and its
+// interpolation that hexahedron's.
+class CellCorners {
+ public:
+  explicit CellCorners(const WalkableCells& mesh)
+      : cells_(mesh.corner_cells.data()), points_(mesh.points.data()->position) {}
+
+  HWY_INLINE MF Load(VU cells, FourFloats (&corner)[8]) const {
+    const DF d;
+    const DU du;
+    static_assert(sizeof(CornerCell) == 16 * sizeof(std::uint32_t));
+    const VU record = hn::ShiftLeft<3>(cells);  // in steps of two words
+    HWY_ALIGN std::uint32_t pairs[kMaxLanes];
+    auto words = [&](std::uint32_t from) {
+      hn::Store(hn::Add(record, hn::Set(du, from / 2)), du, pairs);
+      return LoadFour(reinterpret_cast<const float*>(cells_), pairs);
+    };
+    auto load = [&](VF id) {
+      hn::Store(hn::ShiftLeft<1>(hn::BitCast(du, id)), du, pairs);
+      return LoadFour(points_, pairs);
+    };
+    for (std::uint32_t half = 0; half < 2; ++half) {
+      const FourFloats ids = words(4 * half);
+      corner[4 * half] = load(ids.a);
+      corner[4 * half + 1] = load(ids.b);
+      corner[4 * half + 2] = load(ids.c);
+      corner[4 * half + 3] = load(ids.d);
+    }
+    const VU other = hn::BitCast(du, words(12).c);
+    return hn::RebindMask(d, hn::Ne(other, hn::Zero(du)));
+  }
+
+ private:
+  const CornerCell* cells_;
+  const float* points_;
+};
+
+template <class Mesh>
+using CornersOf = std::conditional_t<std::is_same_v<Mesh, WalkableGrid>, GridCorners, CellCorners>;
+
+// invert() (isoparametric.h) in single precision, a lane each, for the one or two places inside of
+// a segment that orders 2 and 3 look at. All is taken relative to the cell's first corner, where
+// the corners' differences lose nothing: what is found is the scalar of a place that is no farther
+// than 2^-21 of the mesh's half size from the one that was meant (as far as a ray's z is rounded,
+// and less than that across it), up to 1e-6 of the differences of the cell's values.
+//
+// Newton's method, whole steps. With w / 2 the constant of its quadratic convergence, estimated as
+// step / (step before)^2, what is left after a step is step (step / step before)^2: accepted below
+// 1e-6. Lanes that do not come to that in kSteps steps, whose place is farther than
+// kFarthestOutside from the cell, or that have no corners, ask the scalar code.
+template <class Mesh>
+class InnerLanes {
+ public:
+  InnerLanes(const Mesh& mesh, int axis) : mesh_(mesh), corners_(mesh), axis_(axis) {}
+
+  // Where a lane's ray comes in.
+  void begin(std::size_t packet, std::size_t lane, const PacketStart& start) {
+    Lanes& mine = lanes_[packet];
+    mine.slope_x[lane] = start.line.slope_x;
+    mine.slope_y[lane] = start.line.slope_y;
+    mine.offset_x[lane] = start.line.offset_x;
+    mine.offset_y[lane] = start.line.offset_y;
+    mine.z_out[lane] = start.z;
+  }
+  // Where the lanes' segments end; they begin where those before ended.
+  HWY_INLINE void ends_at(std::size_t packet, VF z) {
+    const DF d;
+    Lanes& mine = lanes_[packet];
+    hn::Store(hn::Load(d, mine.z_out), d, mine.z_in);
+    hn::Store(z, d, mine.z_out);
+  }
+
+  // The scalar half way, or at a third and at two thirds of it. Returns the lanes of which it is
+  // known; the others' are linear.
+  template <std::size_t kCount>
+  HWY_INLINE MF At(std::size_t packet, MF active, VU cells, VF (&inner)[kCount]) const {
+    const DF d;
+    const Lanes& mine = lanes_[packet];
+    const VF z_in = hn::Load(d, mine.z_in), z_out = hn::Load(d, mine.z_out);
+    active = hn::And(active, hn::Ne(z_in, z_out));
+    FourFloats corner[8];
+    MF asks = hn::And(active, corners_.Load(cells, corner));
+    const Map map(corner, axis_, hn::Load(d, mine.slope_x), hn::Load(d, mine.slope_y));
+    // The first corner from the ray, at that corner's z.
+    const ShearedLanes first = Permuted(corner[0], axis_);
+    const VF x = hn::NegMulAdd(hn::Load(d, mine.slope_x), first.z,
+                               hn::Sub(first.x, hn::Load(d, mine.offset_x)));
+    const VF y = hn::NegMulAdd(hn::Load(d, mine.slope_y), first.z,
+                               hn::Sub(first.y, hn::Load(d, mine.offset_y)));
+    const VF way = hn::Sub(z_out, z_in), from = hn::Sub(z_in, first.z);
+    const VF half = hn::Set(d, 0.5f);
+    VF r = half, s = half, t = half;
+    for (std::size_t i = 0; i < kCount; ++i) {
+      const float share = static_cast<float>(i + 1) / static_cast<float>(kCount + 1);
+      const VF z = hn::MulAdd(hn::Set(d, share), way, from);
+      const MF found = map.Invert(hn::AndNot(asks, active), hn::Neg(x), hn::Neg(y), z, r, s, t);
+      asks = hn::Or(asks, hn::AndNot(found, active));
+      inner[i] = hn::Add(map.Scalar(r, s, t), first.s);
+    }
+    const unsigned asking = BitsOf(asks);
+    if (HWY_UNLIKELY(asking != 0)) return Ask<kCount>(mine, asking, active, cells, inner);
+    return active;
+  }
+
+ private:
+  static constexpr int kSteps = 8;
+
+  struct Lanes {
+    HWY_ALIGN float slope_x[kMaxLanes] = {};
+    HWY_ALIGN float slope_y[kMaxLanes] = {};
+    HWY_ALIGN float offset_x[kMaxLanes] = {};
+    HWY_ALIGN float offset_y[kMaxLanes] = {};
+    HWY_ALIGN float z_in[kMaxLanes] = {};
+    HWY_ALIGN float z_out[kMaxLanes] = {};
+  };
+
+  static HWY_INLINE ShearedLanes Permuted(const FourFloats& p, int axis) {
+    return {axis == 0   ? p.b
+            : axis == 1 ? p.c
+                        : p.a,
+            axis == 0   ? p.c
+            : axis == 1 ? p.a
+                        : p.b,
+            axis == 0   ? p.a
+            : axis == 1 ? p.b
+                        : p.c,
+            p.d};
+  }
+
+  // A trilinear map from the first corner on, in the lanes' sheared frames.
+  class Map {
+   public:
+    HWY_INLINE Map(const FourFloats (&corner)[8], int axis, VF slope_x, VF slope_y) {
+      ShearedLanes e[8];
+      for (std::size_t c = 1; c < 8; ++c) {
+        const ShearedLanes edge =
+            Permuted({hn::Sub(corner[c].a, corner[0].a), hn::Sub(corner[c].b, corner[0].b),
+                      hn::Sub(corner[c].c, corner[0].c), hn::Sub(corner[c].d, corner[0].d)},
+                     axis);
+        e[c] = {hn::NegMulAdd(slope_x, edge.z, edge.x), hn::NegMulAdd(slope_y, edge.z, edge.y),
+                edge.z, edge.s};
+      }
+      auto terms = [&](VF ShearedLanes::*of, VF(&m)[7]) {
+        m[0] = e[1].*of;
+        m[1] = e[2].*of;
+        m[2] = e[4].*of;
+        m[3] = hn::Sub(hn::Sub(e[3].*of, e[2].*of), m[0]);  // rs
+        m[4] = hn::Sub(hn::Sub(e[6].*of, e[4].*of), m[1]);  // st
+        m[5] = hn::Sub(hn::Sub(e[5].*of, e[1].*of), m[2]);  // tr
+        m[6] = hn::Sub(hn::Sub(hn::Sub(e[7].*of, e[6].*of), hn::Sub(e[5].*of, e[4].*of)), m[3]);
+      };
+      terms(&ShearedLanes::x, x_);
+      terms(&ShearedLanes::y, y_);
+      terms(&ShearedLanes::z, z_);
+      terms(&ShearedLanes::s, s_);
+    }
+
+    HWY_INLINE VF Scalar(VF r, VF s, VF t) const { return At(s_, r, s, t); }
+
+    // The lanes among `active` whose parameters came to lead to that place.
+    HWY_INLINE MF Invert(MF active, VF x, VF y, VF z, VF& r, VF& s, VF& t) const {
+      const DF d;
+      const VF enough = hn::Set(d, static_cast<float>(kParameterTolerance));
+      MF found = hn::MaskFromVec(hn::Zero(d));
+      // Of no first step its convergence is known.
+      VF before = hn::Set(d, 1e-3f);
+      for (int step = 0; step < kSteps; ++step) {
+        VF dx[3], dy[3], dz[3];
+        Derivatives(x_, r, s, t, dx);
+        Derivatives(y_, r, s, t, dy);
+        Derivatives(z_, r, s, t, dz);
+        const VF left_x = hn::Sub(x, At(x_, r, s, t)), left_y = hn::Sub(y, At(y_, r, s, t));
+        const VF left_z = hn::Sub(z, At(z_, r, s, t));
+        // Cramer's rule.
+        auto minor = [](VF a, VF b, VF c, VF e) { return hn::MulSub(a, b, hn::Mul(c, e)); };
+        const VF m0 = minor(dy[1], dz[2], dy[2], dz[1]), m1 = minor(dy[2], dz[0], dy[0], dz[2]);
+        const VF m2 = minor(dy[0], dz[1], dy[1], dz[0]);
+        const VF determinant = hn::MulAdd(dx[0], m0, hn::MulAdd(dx[1], m1, hn::Mul(dx[2], m2)));
+        const VF inverse = hn::Div(hn::Set(d, 1.0f), determinant);
+        const VF n0 = minor(dx[2], dz[1], dx[1], dz[2]), n1 = minor(dx[0], dz[2], dx[2], dz[0]);
+        const VF n2 = minor(dx[1], dz[0], dx[0], dz[1]);
+        const VF o0 = minor(dx[1], dy[2], dx[2], dy[1]), o1 = minor(dx[2], dy[0], dx[0], dy[2]);
+        const VF o2 = minor(dx[0], dy[1], dx[1], dy[0]);
+        auto solve = [&](VF a, VF b, VF c) {
+          return hn::Mul(inverse, hn::MulAdd(a, left_x, hn::MulAdd(b, left_y, hn::Mul(c, left_z))));
+        };
+        const VF dr = solve(m0, n0, o0), ds = solve(m1, n1, o1), dt = solve(m2, n2, o2);
+        // Lanes that are done stay where they are.
+        const MF moves = hn::AndNot(found, active);
+        r = hn::Add(r, hn::IfThenElseZero(moves, dr));
+        s = hn::Add(s, hn::IfThenElseZero(moves, ds));
+        t = hn::Add(t, hn::IfThenElseZero(moves, dt));
+        const VF length = hn::Max(hn::Abs(dr), hn::Max(hn::Abs(ds), hn::Abs(dt)));
+        const VF ratio = hn::Div(length, before);
+        const VF left = hn::Mul(length, hn::Mul(ratio, ratio));
+        found =
+            hn::Or(found, hn::And(moves, hn::And(hn::Lt(length, before), hn::Le(left, enough))));
+        before = length;
+        if (hn::AllTrue(d, hn::Or(found, hn::Not(active)))) break;
+      }
+      // Also false for what is no number.
+      const VF low = hn::Set(d, static_cast<float>(-kFarthestOutside));
+      const VF high = hn::Set(d, static_cast<float>(1 + kFarthestOutside));
+      const MF inside =
+          hn::And(hn::Ge(hn::Min(r, hn::Min(s, t)), low), hn::Le(hn::Max(r, hn::Max(s, t)), high));
+      return hn::And(found, inside);
+    }
+
+   private:
+    static HWY_INLINE VF At(const VF (&m)[7], VF r, VF s, VF t) {
+      const VF along_t = hn::MulAdd(t, hn::MulAdd(r, m[5], m[2]), hn::Mul(r, m[0]));
+      return hn::MulAdd(s, hn::MulAdd(t, hn::MulAdd(r, m[6], m[4]), hn::MulAdd(r, m[3], m[1])),
+                        along_t);
+    }
+    static HWY_INLINE void Derivatives(const VF (&m)[7], VF r, VF s, VF t, VF (&d)[3]) {
+      d[0] = hn::MulAdd(s, hn::MulAdd(t, m[6], m[3]), hn::MulAdd(t, m[5], m[0]));
+      d[1] = hn::MulAdd(t, hn::MulAdd(r, m[6], m[4]), hn::MulAdd(r, m[3], m[1]));
+      d[2] = hn::MulAdd(r, hn::MulAdd(s, m[6], m[5]), hn::MulAdd(s, m[4], m[2]));
+    }
+
+    VF x_[7], y_[7], z_[7], s_[7];
+  };
+
+  // Some lanes by the scalar code, in double. Returns the lanes of which the scalar is known.
+  template <std::size_t kCount>
+  HWY_NOINLINE MF Ask(const Lanes& mine, unsigned asking, MF active, VU cells,
+                      VF (&inner)[kCount]) const {
+    const DF d;
+    HWY_ALIGN std::uint32_t cell[kMaxLanes];
+    HWY_ALIGN float values[kCount][kMaxLanes], known[kMaxLanes];
+    hn::Store(cells, DU(), cell);
+    for (std::size_t i = 0; i < kCount; ++i) hn::Store(inner[i], d, values[i]);
+    hn::Store(hn::IfThenElseZero(active, hn::Set(d, 1)), d, known);
+    for (; asking != 0; asking &= asking - 1) {
+      const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(asking);
+      std::array<Place, kCount> places;
+      for (std::size_t i = 0; i < kCount; ++i) {
+        const double share = static_cast<double>(i + 1) / static_cast<double>(kCount + 1);
+        const double z_in = mine.z_in[lane], z_out = mine.z_out[lane];
+        const double z = z_in + share * (z_out - z_in);
+        const auto axis = static_cast<std::size_t>(axis_);
+        places[i][(axis + 1) % 3] =
+            mine.offset_x[lane] + static_cast<double>(mine.slope_x[lane]) * z;
+        places[i][(axis + 2) % 3] =
+            mine.offset_y[lane] + static_cast<double>(mine.slope_y[lane]) * z;
+        places[i][axis] = z;
+      }
+      std::array<float, kCount> found{};
+      known[lane] = scalars_inside(mesh_, cell[lane], places, found.data()) ? 1.0f : 0.0f;
+      for (std::size_t i = 0; i < kCount; ++i) values[i][lane] = found[i];
+    }
+    for (std::size_t i = 0; i < kCount; ++i) inner[i] = hn::Load(d, values[i]);
+    return hn::Gt(hn::Load(d, known), hn::Zero(d));
+  }
+
+  const Mesh& mesh_;
+  const CornersOf<Mesh> corners_;
+  const int axis_;
+  Lanes lanes_[kMaxPackets];
+};
+
+}  // namespace HWY_NAMESPACE
+}  // namespace plume
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard

@@ -1,0 +1,110 @@
+/// How rays that look for cells pass through them, and through faces at the boundary.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "plume/mesh/cell_clusters.h"
+#include "plume/mesh/cell_hierarchy.h"
+#include "plume/traverse/cell_passages.h"
+#include "plume/traverse/searched_ray.h"
+#include "plume/traverse/tet_passage.h"
+
+namespace plume {
+
+/// In the mesh's local frame: closer than this two places may be out of order by rounding.
+inline constexpr double kSearchRounding = 0x1p-20;
+
+/// Of tetrahedra. Keeps references.
+class TetCells {
+ public:
+  using Cell = TetCell;
+
+  TetCells(const WalkableTets& mesh, const CellHierarchy& hierarchy)
+      : mesh_(mesh), hierarchy_(hierarchy) {}
+
+  const LocalFrame& frame() const { return mesh_.frame; }
+  std::uint32_t number_of(const Cell& cell) const { return cell.cell; }
+
+  /// Calls pass(in, out, comes_from_before) for each time the ray goes through the cell, until that
+  /// returns false. comes_from_before() says that a walk to the cell has been nowhere that is not
+  /// before `in`, if it has gone forward through all thin cells. False where that did, or where the
+  /// ray must be walked.
+  template <class Pass>
+  bool pass_through(const Cell& cell, const Ray& /*ray*/, const ShearedFrame& frame,
+                    const Pass& pass) const {
+    const TetPassage passage(cell, frame);
+    if (passage.ways() == TetPassage::Ways::none) return true;
+    if (passage.ways() == TetPassage::Ways::two) return false;
+    const Crossing in = passage.in();
+    return pass(in, passage.out(), [&] {
+      const std::uint32_t behind = mesh_.cells[cell.cell][passage.in_face()].cell;
+      return (behind != kNone && !hierarchy_.near_thin(behind) &&
+              passage.enters_clear_of_edges(kClearOfEdges)) ||
+             passage.comes_from_before(mesh_, in.z, kSearchRounding);
+    });
+  }
+
+  /// Adds to what is known of the ray that it crosses the face, of that number in the mesh's list,
+  /// which winds about it.
+  void cross_boundary(std::uint32_t number, const ShearedFrame& frame, SearchedRay& ray) const {
+    const TetWalker walker(mesh_, frame);
+    const WalkableTets::Boundary& face = mesh_.boundary[number];
+    const int winding = walker.boundary_winding(face);
+    const Crossing place = walker.measure_boundary(face, winding);
+    ray.cross_boundary(frame.t(place.z), place.scalar, winding * frame.sign() < 0);
+  }
+
+ private:
+  // So far from the edges of the face by which it comes in, a ray has come through a good part of
+  // the cell before, if that is not thin.
+  static constexpr float kClearOfEdges = 0x1p-14f;
+
+  const WalkableTets& mesh_;
+  const CellHierarchy& hierarchy_;
+};
+
+/// The same of other cells, for GridWalker and CellWalker. Keeps a reference. One thread's.
+template <class Walker>
+class AnyCells {
+ public:
+  using Mesh = typename Walker::Mesh;
+  using Cell = std::uint32_t;
+
+  explicit AnyCells(const Mesh& mesh) : mesh_(mesh), passages_(mesh) {}
+
+  const LocalFrame& frame() const { return mesh_.frame; }
+  std::uint32_t number_of(Cell cell) const { return cell; }
+
+  template <class Pass>
+  bool pass_through(Cell cell, const Ray& ray, const ShearedFrame& frame, const Pass& pass) const {
+    const auto found = passages_.through(cell, frame);
+    for (std::size_t i = 0; i < found.size(); ++i) {
+      const CellCrossing &in = found[i].in, &out = found[i].out;
+      // In and out, in turns.
+      if (i > 0 && (in.place.z - found[i - 1].out.place.z) * frame.sign() < 0) return false;
+      const bool goes_on = pass(in.place, out.place, [&] {
+        Ray turned = ray;
+        for (double& d : turned.direction) d = -d;
+        ShearedFrame reversed;
+        return reversed.set(turned, mesh_.frame) &&
+               passages_.comes_from_before(cell, in, reversed, kSearchRounding);
+      });
+      if (!goes_on) return false;
+    }
+    return true;
+  }
+
+  /// Of any face, whether the ray crosses it or not.
+  void cross_boundary(std::uint32_t number, const ShearedFrame& frame, SearchedRay& ray) const {
+    passages_.across_boundary(mesh_.boundary[number], frame, [&](const CellCrossing& crossing) {
+      ray.cross_boundary(frame.t(crossing.place.z), crossing.place.scalar, !crossing.out);
+    });
+  }
+
+ private:
+  const Mesh& mesh_;
+  mutable CellPassages<Walker> passages_;
+};
+
+}  // namespace plume
