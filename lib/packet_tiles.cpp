@@ -109,8 +109,7 @@ bool has_packets(const Scene& scene) {
   return std::visit(
       [](const auto& walkable) {
         using Walker = typename std::decay_t<decltype(*walkable)>::Walker;
-        if constexpr (std::is_same_v<Walker, CellWalker>)
-          return !walkable->mesh.corner_cells.empty();
+        if constexpr (std::is_same_v<Walker, CellWalker>) return walkable->mesh.has_packets();
         if constexpr (std::is_same_v<Walker, RectilinearWalker>)
           return walked_by_packets(walkable->mesh);
         return true;
@@ -122,7 +121,13 @@ bool has_packets_of_order(const Scene& scene, const RenderSettings& settings) {
   if (is_linear(scene, settings)) return true;
   return (settings.order == ScalarOrder::quadratic || settings.order == ScalarOrder::cubic) &&
          std::visit(
-             [](const auto& walkable) { return kCurvedPackets<std::decay_t<decltype(*walkable)>>; },
+             [](const auto& walkable) {
+               using Form = std::decay_t<decltype(*walkable)>;
+               // What is inside of a cell is read from its eight corners.
+               if constexpr (std::is_same_v<typename Form::Walker, CellWalker>)
+                 if (walkable->mesh.corner_cells.empty()) return false;
+               return kCurvedPackets<Form>;
+             },
              scene.body().walkable);
 }
 

@@ -184,7 +184,7 @@ Scene::Scene(const Mesh& mesh, const SceneOptions& options) : body_(std::make_un
                            options.compact_tetrahedra ? TetLinks::compact : TetLinks::whole)));
   else {
     WalkableCells cells = make_walkable_cells(mesh, field, frame_bounds, keep_cells, keep_points);
-    cells.corner_cells = make_corner_cells(cells);
+    prepare_packets(cells);
     take(std::make_unique<Walkable<CellWalker>>(std::move(cells)));
   }
   read.field.values = {};

@@ -140,7 +140,7 @@ std::vector<CornerCell> make_corner_cells(const WalkableCells& mesh) {
       for (std::size_t i = 0; i < 8; i += 2) std::swap((*corners)[i], (*corners)[i + 1]);
     cell.points = *corners;
   });
-  if (2 * others > count) return {};
+  if (10 * others > count) return {};
   for_each([&](std::uint32_t c) {
     CornerCell& cell = cells[c];
     if (cell.other != 0) return;

@@ -204,7 +204,12 @@ std::size_t WalkableCells::bytes() const {
   return bytes_of(points) + bytes_of(face_begin) + bytes_of(face_points) + bytes_of(face_sides) +
          bytes_of(cell_begin) + bytes_of(cell_faces) + bytes_of(cell_values) +
          bytes_of(original_cells) + bytes_of(point_numbers) + bytes_of(boundary) +
-         bytes_of(corner_cells);
+         bytes_of(corner_cells) + edge_cells.bytes();
+}
+
+void prepare_packets(WalkableCells& mesh) {
+  mesh.corner_cells = make_corner_cells(mesh);
+  mesh.edge_cells = make_edge_cells(mesh);
 }
 
 WalkableCells make_walkable_cells(const Mesh& mesh, const ScalarField& scalar, const Bounds& bounds,

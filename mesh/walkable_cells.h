@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "plume/mesh/corner_cells.h"
+#include "plume/mesh/edge_cells.h"
 #include "plume/mesh/face_matching.h"
 #include "plume/mesh/findings.h"
 #include "plume/mesh/local_frame.h"
@@ -35,6 +36,7 @@ struct WalkableCells {
   std::vector<std::uint32_t> point_numbers;
   std::vector<BoundaryFace> boundary;    ///< `face` is a number in face_sides
   std::vector<CornerCell> corner_cells;  ///< for packets of rays; empty unless asked for
+  EdgeCells edge_cells;                  ///< for packets of rays; empty unless asked for
   std::vector<Finding> findings;
 
   std::size_t cell_count() const { return cell_begin.size() - 1; }
@@ -48,7 +50,12 @@ struct WalkableCells {
     return {cell_faces.data() + cell_begin[cell], cell_faces.data() + cell_begin[cell + 1]};
   }
   std::size_t bytes() const;
+  /// Whether packets of rays can walk it.
+  bool has_packets() const { return !corner_cells.empty() || !edge_cells.empty(); }
 };
+
+/// Makes what packets of rays read, corner_cells or edge_cells or, in a mixed mesh, both.
+void prepare_packets(WalkableCells& mesh);
 
 /// Builds the walkable form. Repeated points of a face are taken as one; a face with fewer than
 /// three different points is nothing a ray could cross and is left out. The faces of a polyhedron

@@ -16,6 +16,7 @@
 #include "hwy/highway.h"
 #include "plume/mesh/walkable_cells.h"
 #include "plume/traverse/cell_walker.h"
+#include "plume/traverse/edge_steps-inl.h"
 #include "plume/traverse/lane_loads-inl.h"
 #include "plume/traverse/packet_walk-inl.h"
 #include "plume/traverse/patch_lanes-inl.h"
@@ -299,7 +300,10 @@ class CellSteps {
 // Walks all rays of `feeder`, whose longest axis is `axis`.
 template <class Consumer>
 void Walk(const WalkableCells& mesh, int axis, Consumer& consumer, PacketFeeder& feeder) {
-  PacketWalk<CellSteps, kPackets, false, Consumer>(CellSteps(mesh, axis), consumer, feeder).run();
+  if (mesh.corner_cells.empty())
+    PacketWalk<EdgeSteps, kPackets, false, Consumer>(EdgeSteps(mesh, axis), consumer, feeder).run();
+  else
+    PacketWalk<CellSteps, kPackets, false, Consumer>(CellSteps(mesh, axis), consumer, feeder).run();
 }
 
 }  // namespace HWY_NAMESPACE

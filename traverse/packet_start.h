@@ -119,7 +119,8 @@ struct CellStart : PacketStart {
 inline void set_place(CellStart& start, const WalkableCells& mesh, const ShearedFrame& frame,
                       std::uint32_t cell, std::uint32_t face, std::uint32_t rank) {
   start.cell = cell;
-  start.from = corner_face(mesh, mesh.corner_cells[cell], cell, face);
+  start.from = mesh.corner_cells.empty() ? kNoCorners
+                                         : corner_face(mesh, mesh.corner_cells[cell], cell, face);
   start.face = face;
   start.rank = rank;
   start.frame = &frame;

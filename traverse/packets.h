@@ -16,7 +16,8 @@ namespace plume {
 /// Walks all rays of `feeder` and counts, by PacketStart::ray, the cells that each went through
 /// (added to what is there). The rays' longest axis must be `axis`, 0 to 2; their starts are
 /// TetStart, GridStart or CellStart, as the mesh is. Takes the same way as TetWalker, GridWalker or
-/// CellWalker, bit for bit, with any instruction set. WalkableCells need their corner_cells.
+/// CellWalker, bit for bit, with any instruction set. WalkableCells must have
+/// their packets prepared (prepare_packets()).
 ///
 /// A rectilinear grid is walked as RectilinearWalker does, on rays of all axes together; starts are
 /// RectilinearStart, and the grid one that is walked_by_packets() (traverse/rectilinear_start.h).

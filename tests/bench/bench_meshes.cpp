@@ -184,7 +184,7 @@ BenchMesh make_bench_mesh(const Mesh& mesh, Family family, CellOrder order) {
       break;
     case Family::cells:
       made.cells = make_walkable_cells(mesh, field, made.bounds, false);
-      made.cells.corner_cells = make_corner_cells(made.cells);
+      prepare_packets(made.cells);
       made.cell_count = made.cells.cell_count();
       break;
   }

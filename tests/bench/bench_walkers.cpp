@@ -25,16 +25,17 @@ std::size_t grid_bytes(const BenchMesh& mesh) {
   return mesh.grid.bytes() - mesh.grid.boundary.size() * sizeof(BoundaryFace);
 }
 
-// What packets read, the points included.
-std::size_t corner_bytes(const BenchMesh& mesh) {
-  return mesh.cells.corner_cells.size() * sizeof(CornerCell) +
-         mesh.cells.points.size() * sizeof(WalkablePoint);
-}
-
 // What CellWalker reads.
 std::size_t cells_bytes(const BenchMesh& mesh) {
   return mesh.cells.bytes() - mesh.cells.boundary.size() * sizeof(BoundaryFace) -
-         mesh.cells.corner_cells.size() * sizeof(CornerCell);
+         mesh.cells.corner_cells.size() * sizeof(CornerCell) - mesh.cells.edge_cells.bytes();
+}
+
+// What packets read, the points included.
+std::size_t packet_bytes(const BenchMesh& mesh) {
+  if (mesh.cells.corner_cells.empty()) return cells_bytes(mesh) + mesh.cells.edge_cells.bytes();
+  return mesh.cells.corner_cells.size() * sizeof(CornerCell) +
+         mesh.cells.points.size() * sizeof(WalkablePoint);
 }
 
 const std::vector<Mode> kAllModes(kModes.begin(), kModes.end());
@@ -78,7 +79,7 @@ const std::vector<BenchWalker>& walkers(Family family) {
   }();
   static const std::vector<BenchWalker> of_cells{
       {"cell-walker", walk_passages<CellWalker>, kAllModes, Likeness::exact, cells_bytes},
-      {"cell-packets", walk_packet_passages, kPacketModes, Likeness::exact, corner_bytes}};
+      {"cell-packets", walk_packet_passages, kPacketModes, Likeness::exact, packet_bytes}};
   return family == Family::tetrahedra  ? of_tetrahedra
          : family == Family::hexahedra ? of_hexahedra
                                        : of_cells;

@@ -35,7 +35,7 @@ struct Contender {
 // There are no packets for polyhedra.
 bool has_walker(const Walked& walked, const BenchWalker& walker) {
   return walked.mesh.family != Family::cells || &walker == &baseline(Family::cells) ||
-         !walked.mesh.cells.corner_cells.empty();
+         walked.mesh.cells.has_packets();
 }
 
 // Faces of the cells that are met.

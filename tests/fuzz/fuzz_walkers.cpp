@@ -183,6 +183,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::check_walker<TetWalker>(make_walkable_tets(tetrahedra, field, bounds, false), rays, true);
   WalkableCells cells = make_walkable_cells(hexahedra, field, bounds, false);
   cells.corner_cells = make_corner_cells(cells);
-  fuzz::check_walker<CellWalker>(cells, rays, !cells.corner_cells.empty());
+  fuzz::check_walker<CellWalker>(cells, rays, cells.has_packets());
+  cells.corner_cells = {};
+  cells.edge_cells = make_edge_cells(cells);
+  fuzz::check_walker<CellWalker>(cells, rays, cells.has_packets());
   return 0;
 }

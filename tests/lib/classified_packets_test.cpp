@@ -76,7 +76,8 @@ class ClassifiedPackets : public testing::TestWithParam<const char*> {
 };
 INSTANTIATE_TEST_SUITE_P(Each, ClassifiedPackets,
                          testing::Values("box-tetrahedra", "box-hexahedra", "twisted", "box-wedges",
-                                         "box-mixed", "box-rectilinear", "two-blocks"),
+                                         "box-mixed", "box-polyhedra", "box-rectilinear",
+                                         "two-blocks"),
                          [](const auto& one) {
                            std::string name = one.param;
                            std::erase(name, '-');

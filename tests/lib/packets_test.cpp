@@ -102,7 +102,7 @@ class EachInstructionSet : public testing::Test {
 class Packets : public EachInstructionSet, public testing::WithParamInterface<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Each, Packets,
                          testing::Values("box-tetrahedra", "box-hexahedra", "twisted", "box-wedges",
-                                         "box-mixed", "box-rectilinear"),
+                                         "box-mixed", "box-polyhedra", "box-rectilinear"),
                          [](const auto& one) {
                            std::string name = one.param;
                            std::erase(name, '-');

@@ -23,7 +23,7 @@ inline Mesh slabs(const std::string& name) {
   const CellReader cells(mesh);
   std::vector<std::uint8_t> types;
   std::vector<std::int64_t> offsets{0};
-  std::vector<std::int64_t> kept;
+  std::vector<std::int64_t> kept, locations;
   std::vector<std::uint32_t> ids;
   for (std::size_t c = 0; c < cells.size(); ++c) {
     cells.points(c, ids);
@@ -33,10 +33,13 @@ inline Mesh slabs(const std::string& name) {
     types.push_back(static_cast<std::uint8_t>(cells.type(c)));
     kept.insert(kept.end(), ids.begin(), ids.end());
     offsets.push_back(static_cast<std::int64_t>(kept.size()));
+    if (cells.type(c) == CellType::polyhedron)
+      locations.push_back(mesh.cells.polyhedron_locations.at<std::int64_t>(c));
   }
   mesh.cells.types = Array::own(std::move(types));
   mesh.cells.offsets = Array::own(std::move(offsets));
   mesh.cells.connectivity = Array::own(std::move(kept));
+  if (!locations.empty()) mesh.cells.polyhedron_locations = Array::own(std::move(locations));
   std::erase_if(mesh.fields, [](const Field& f) { return f.association == Association::cell; });
   return mesh;
 }

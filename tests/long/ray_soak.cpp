@@ -6,7 +6,6 @@
 #include <limits>
 #include <vector>
 
-#include "plume/mesh/corner_cells.h"
 #include "plume/mesh/validate.h"
 #include "plume/tests/long/aimed_rays.h"
 #include "plume/tests/long/soak_ways.h"
@@ -50,7 +49,7 @@ struct Made {
       return make_walkable_grid(mesh, select_field(mesh), bounds);
     } else {
       Form form = make_walkable_cells(mesh, select_field(mesh), bounds, false);
-      form.corner_cells = make_corner_cells(form);
+      prepare_packets(form);
       return form;
     }
   }
@@ -72,7 +71,7 @@ struct TwinWalk {
 
 bool has_packets(const WalkableTets&) { return true; }
 bool has_packets(const WalkableGrid&) { return true; }
-bool has_packets(const WalkableCells& cells) { return !cells.corner_cells.empty(); }
+bool has_packets(const WalkableCells& cells) { return cells.has_packets(); }
 
 template <class W>
 void walk_twin(const Made<W>& mesh, const ShearedFrame& frame, TwinWalk<typename W::Mesh>& walk) {

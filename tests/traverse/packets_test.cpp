@@ -191,7 +191,7 @@ TEST(GridPackets, WalkAsFewRaysAsOne) {
 
 WalkableCells cells_of(const Mesh& mesh) {
   WalkableCells cells = make_walkable_cells(mesh, select_field(mesh), check_structure(mesh), false);
-  cells.corner_cells = make_corner_cells(cells);
+  prepare_packets(cells);
   return cells;
 }
 
@@ -229,6 +229,41 @@ TEST(CellPackets, AskTheirTwinInPolyhedra) {
     cell.other = 1;
   }
   expect_twins<CellWalker>(mesh, cells, 10000, 8e-6);
+}
+
+// All cells by their records of corners and edges, whatever they are.
+WalkableCells edge_cells_of(const Mesh& mesh) {
+  WalkableCells cells = make_walkable_cells(mesh, select_field(mesh), check_structure(mesh), false);
+  cells.edge_cells = make_edge_cells(cells);
+  return cells;
+}
+
+void expect_edge_twins(const Mesh& mesh, std::uint64_t rays) {
+  expect_twins<CellWalker>(mesh, edge_cells_of(mesh), rays, 8e-6);
+}
+
+TEST(EdgePackets, TakeTheWayOfTheirTwinThroughPolyhedra) {
+  expect_cell_twins(generate("box-polyhedra", {8, 0, 5}), 10000);
+  expect_cell_twins(generate("box-polyhedra", {8, 0.25, 5}), 10000);
+}
+TEST(EdgePackets, TakeTheWayOfTheirTwinThroughConcaveAndTangledPolyhedra) {
+  expect_cell_twins(generate("box-polyhedra", {6, 1, 5}), 5000);
+  expect_cell_twins(generate("box-polyhedra", {6, 3, 5}), 5000);
+}
+TEST(EdgePackets, TakeTheWayOfTheirTwinThroughCellsOfAnyKind) {
+  expect_edge_twins(generate("box-mixed", {8, 0, 5}), 5000);
+  expect_edge_twins(generate("box-mixed", {8, 0.25, 5}), 5000);
+  expect_edge_twins(generate("box-tetrahedra", {6, 0.25, 5}), 5000);
+  expect_edge_twins(generate("two-blocks", {8, 0.25, 5}), 5000);
+}
+TEST(EdgePackets, AskTheirTwinInCellsWithoutARecord) {
+  const Mesh mesh = generate("box-polyhedra", {8, 0.25, 5});
+  WalkableCells cells = edge_cells_of(mesh);
+  for (std::size_t c = 0; c < cells.cell_count(); c += 5) cells.edge_cells.begin[c] = kNone;
+  expect_twins<CellWalker>(mesh, cells, 5000, 8e-6);
+}
+TEST(EdgePackets, WalkAsFewRaysAsOne) {
+  expect_cell_twins(generate("box-polyhedra", {3, 0.2, 5}), 3);
 }
 
 TEST(CellPackets, WalkAsFewRaysAsOne) { expect_cell_twins(generate("box-mixed", {3, 0.2, 5}), 3); }
