@@ -211,6 +211,7 @@ std::optional<std::string> no_search(const Scene& scene, const RenderSettings& s
   if (settings.interval_way == IntervalWay::table) return "the interval tables are asked for";
   if (settings.scalar_twin) return "the scalar twin is asked for";
   const auto& channels = settings.channels;
+  if (extreme && !channels.empty()) return "channels are of what rays meet on their way";
   for (const char* name : {"optical_depth", "cell_count"})
     if (std::count(channels.begin(), channels.end(), name) > 0) return "a channel needs whole rays";
   if (by_packets && !tets && scene.cell_count() < kFewestBesidePackets)

@@ -4,10 +4,13 @@
 
 #include <cstring>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "plume/datasets/generate.h"
+#include "plume/lib/make_tiles.h"
 #include "plume/lib/plume.h"
+#include "plume/lib/tiles.h"
 
 namespace plume::test {
 namespace {
@@ -24,10 +27,25 @@ bool same(const std::vector<float>& a, const std::vector<float>& b) {
   return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
 }
 
+// Through the hierarchy, whatever else there is for the picture.
+RenderResult search(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
+  RenderResult result;
+  Frame frame(scene, camera, settings);
+  const Integrator integrator{ClosedForm(scene.transfer_function())};
+  const auto maker = searched_tiles(frame, integrator);
+  make_tiles(frame, *maker, {}, result.statistics);
+  frame.shade_raw(result.statistics);
+  result.image = std::move(frame.image());
+  return result;
+}
+
 // Renders both ways and returns the statistics of the one through the hierarchy.
 RenderStatistics expect_same(const Scene& scene, const Camera& camera, RenderSettings settings,
-                             const std::string& which) {
-  const RenderResult searched = render(scene, camera, settings);
+                             const std::string& which, bool even_beside_packets = false) {
+  const bool can_search = !no_search(scene, settings, false);
+  const RenderResult searched = even_beside_packets && can_search ? search(scene, camera, settings)
+                                                                  : render(scene, camera, settings);
+  if (even_beside_packets && !can_search) return {};
   settings.scalar_twin = true;
   const RenderResult walked = render(scene, camera, settings);
   EXPECT_EQ(walked.statistics.rays_searched, 0u) << which;
@@ -123,7 +141,16 @@ TEST(HierarchyPictures, OfTheGreatestAndTheLeastAreTheWalkers) {
     }
 }
 
-// Grids and cells of any kind; a further channel keeps packets from what they would do of volumes.
+// What is met on the way is in channels, which only a walk fills.
+TEST(HierarchyPictures, OfTheGreatestHaveTheChannelsOfTheWalkers) {
+  const Scene scene(generate("box-tetrahedra", {10, 0.2, 3}));
+  RenderSettings settings = small();
+  settings.mode = Mode::maximum;
+  settings.channels = {"depth"};
+  expect_same(scene, named_view("iso", scene.bounds()), settings, "depth");
+}
+
+// Grids and cells of any kind; a further channel keeps packets from what they would do.
 TEST(HierarchyPictures, OfOtherCellsAreTheWalkers) {
   struct Case {
     const char* name;
@@ -145,10 +172,11 @@ TEST(HierarchyPictures, OfOtherCellsAreTheWalkers) {
         camera.parallel = mode == Mode::volume;
         RenderSettings settings = small();
         settings.mode = mode;
+        const bool extreme = mode == Mode::maximum || mode == Mode::minimum;
         if (mode == Mode::volume) settings.channels = {"depth", "cell_id", "isovalue"};
         const std::string which = std::string(c.name) + ", " + view;
-        const RenderStatistics statistics = expect_same(scene, camera, settings, which);
-        if (mode == Mode::maximum || mode == Mode::minimum) {
+        const RenderStatistics statistics = expect_same(scene, camera, settings, which, extreme);
+        if (extreme) {
           EXPECT_EQ(statistics.rays_searched > 0, !c.crooked) << which;
           continue;
         }
