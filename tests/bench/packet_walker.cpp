@@ -28,14 +28,13 @@ class PassageFeeder : public PacketFeeder {
 
   const PacketStart* next(const PacketStart* finished) override {
     if (at_ == passages_.size()) return nullptr;
-    if (at_ % FrameLanes::kRays == 0) make_frames();
     const std::uint32_t index = passages_[at_];
     const Entry& entry = view_.passages[index].entry;
     // A lane's place is free again when its ray has finished.
     const std::size_t lane =
         finished ? static_cast<std::size_t>(static_cast<const Start*>(finished) - starts_.data())
                  : used_++;
-    frames_[lane] = made_.frame(at_ % FrameLanes::kRays);
+    frames_[lane].set(view_.rays[view_.passages[index].ray], form_.frame);
     if (!t_in_.empty()) t_in_[index] = static_cast<float>(frames_[lane].t(entry.place.z));
     set_start(starts_[lane], form_, frames_[lane], form_.boundary[entry.boundary], entry.place,
               entry.rank, index);
@@ -44,18 +43,10 @@ class PassageFeeder : public PacketFeeder {
   }
 
  private:
-  void make_frames() {
-    RayLanes rays;
-    const std::size_t end = std::min(at_ + FrameLanes::kRays, passages_.size());
-    for (std::size_t i = at_; i < end; ++i) rays.add(view_.rays[view_.passages[passages_[i]].ray]);
-    made_.set(rays, form_.frame);
-  }
-
   const Form& form_;
   const BenchView& view_;
   const std::vector<std::uint32_t>& passages_;
   const std::span<float> t_in_;
-  FrameLanes made_;
   std::array<Start, kMaxPacketLanes> starts_;
   std::array<ShearedFrame, kMaxPacketLanes> frames_;  // starts of grids refer to theirs
   std::size_t used_ = 0;
