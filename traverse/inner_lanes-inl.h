@@ -194,7 +194,7 @@ class InnerLanes {
     const DF d;
     const Lanes& mine = lanes_[packet];
     const Along along(*this, mine, cells);
-    const VF one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f);
+    const VF one = hn::Set(d, 1.0f), half = hn::Set(d, 0.5f), third = hn::Set(d, 1.0f / 3);
     const MF inside = along.Advances();
     MF asks = hn::And(hn::And(active, inside), along.Asks());
     VF from = hn::Zero(d), size = one, s_from = s_in;
@@ -206,10 +206,10 @@ class InnerLanes {
       MF found = hn::And(on, inside);
       VF inner[2], slope[2];
       for (std::size_t i = 0; i < 2; ++i) {
-        const VF share = hn::Set(d, static_cast<float>(i + 1) / 3);
+        const VF share = i == 0 ? third : hn::Set(d, 2.0f / 3);
         found = along.Find(found, hn::MulAdd(share, size, from), at);
         inner[i] = along.Scalar(at);
-        slope[i] = hn::Mul(size, along.Slope(at));
+        slope[i] = hn::Mul(size, along.Slope(at, hn::Mul(third, size)));
       }
       VF s_to = s_out;
       const MF between = hn::AndNot(last, found);
@@ -248,11 +248,6 @@ class InnerLanes {
   static constexpr int kSteps = 8;
   static constexpr float kShortest = 0x1p-12f;  // of a segment
 
-  // Of cells.
-  struct Parameters {
-    VF r, s, t;
-  };
-
   struct Lanes {
     HWY_ALIGN float slope_x[kMaxLanes] = {};
     HWY_ALIGN float slope_y[kMaxLanes] = {};
@@ -274,6 +269,11 @@ class InnerLanes {
                         : p.c,
             p.d};
   }
+
+  // Of cells.
+  struct Parameters {
+    VF r, s, t;
+  };
 
   // A trilinear map from the first corner on, in the lanes' sheared frames.
   class Map {
@@ -305,22 +305,24 @@ class InnerLanes {
 
     HWY_INLINE VF Scalar(VF r, VF s, VF t) const { return At(s_, r, s, t); }
 
-    // The scalar's derivative by z along a ray, on which x and y stay what they are.
-    HWY_INLINE VF Slope(VF r, VF s, VF t) const {
+    // The parameters' derivatives by z along a ray, on which x and y stay what they are, and what
+    // the scalar's are then.
+    HWY_INLINE VF Slopes(const Parameters& at, Parameters& slopes) const {
       VF dx[3], dy[3], dz[3], ds[3];
-      Derivatives(x_, r, s, t, dx);
-      Derivatives(y_, r, s, t, dy);
-      Derivatives(z_, r, s, t, dz);
-      Derivatives(s_, r, s, t, ds);
+      Derivatives(x_, at.r, at.s, at.t, dx);
+      Derivatives(y_, at.r, at.s, at.t, dy);
+      Derivatives(z_, at.r, at.s, at.t, dz);
+      Derivatives(s_, at.r, at.s, at.t, ds);
       auto minor = [](VF a, VF b, VF c, VF e) { return hn::MulSub(a, b, hn::Mul(c, e)); };
-      const VF along[3] = {minor(dx[1], dy[2], dx[2], dy[1]), minor(dx[2], dy[0], dx[0], dy[2]),
-                           minor(dx[0], dy[1], dx[1], dy[0])};
-      auto dot = [&](const VF(&a)[3]) {
-        return hn::MulAdd(a[0], along[0], hn::MulAdd(a[1], along[1], hn::Mul(a[2], along[2])));
+      const Parameters along{minor(dx[1], dy[2], dx[2], dy[1]), minor(dx[2], dy[0], dx[0], dy[2]),
+                             minor(dx[0], dy[1], dx[1], dy[0])};
+      auto dot = [](const VF(&a)[3], const Parameters& b) {
+        return hn::MulAdd(a[0], b.r, hn::MulAdd(a[1], b.s, hn::Mul(a[2], b.t)));
       };
-      return hn::Div(dot(ds), dot(dz));
+      const VF inverse = hn::Div(hn::Set(DF(), 1.0f), dot(dz, along));
+      slopes = {hn::Mul(along.r, inverse), hn::Mul(along.s, inverse), hn::Mul(along.t, inverse)};
+      return dot(ds, slopes);
     }
-
     // The lanes among `active` whose parameters came to lead to that place.
     HWY_INLINE MF Invert(MF active, VF x, VF y, VF z, VF& r, VF& s, VF& t) const {
       const DF d;
@@ -402,9 +404,22 @@ class InnerLanes {
     HWY_INLINE VF Scalar(const Parameters& at) const {
       return hn::Add(map_.Scalar(at.r, at.s, at.t), first_);
     }
-    // By the share.
-    HWY_INLINE VF Slope(const Parameters& at) const {
-      return hn::Mul(way_, map_.Slope(at.r, at.s, at.t));
+    // By the share. The parameters go on to where they would be after another `share`, if they went
+    // on as they do here, but not far from the cell.
+    HWY_INLINE VF Slope(Parameters& at, VF share) const {
+      const DF d;
+      Parameters slopes;
+      const VF slope = map_.Slopes(at, slopes);
+      const VF step = hn::Mul(share, way_);
+      auto go_on = [&](VF& parameter, VF by) {
+        const VF farthest = hn::Set(d, static_cast<float>(kFarthestOutside));
+        parameter = hn::Min(hn::Max(hn::MulAdd(step, by, parameter), hn::Neg(farthest)),
+                            hn::Add(farthest, hn::Set(d, 1.0f)));
+      };
+      go_on(at.r, slopes.r);
+      go_on(at.s, slopes.s);
+      go_on(at.t, slopes.t);
+      return hn::Mul(way_, slope);
     }
     // What rounding of four values, each of a place that is 2^-21 off, makes of OffBy(): a slope in
     // between changes by up to six times as much as these.
