@@ -1,4 +1,4 @@
-// Pictures of orders 2 and 3 by packets of rays against those of the plain scalar code, with every
+// Pictures of orders above 1 by packets of rays against those of the plain scalar code, with every
 // instruction set.
 
 #include <gtest/gtest.h>
@@ -11,6 +11,8 @@
 
 #include "hwy/targets.h"
 #include "plume/datasets/generate.h"
+#include "plume/lib/mode_difference.h"
+#include "plume/lib/planner.h"
 #include "plume/lib/plume.h"
 #include "plume/lib/render_modes.h"
 #include "plume/mesh/explicit_cells.h"
@@ -33,7 +35,8 @@ constexpr double kTolerance = 3e-5;  // of the field's range
 // Of what differs within the tolerance, the extinction changes by a few times that; along a ray
 // most of it cancels.
 constexpr double kBound = 2 * kTolerance;
-constexpr ScalarOrder kHigher[] = {ScalarOrder::quadratic, ScalarOrder::cubic};
+constexpr ScalarOrder kHigher[] = {ScalarOrder::quadratic, ScalarOrder::cubic,
+                                   ScalarOrder::adaptive};
 
 // A wave that cells of a ninth of the box bend.
 Mesh wavy(Mesh mesh) {
@@ -206,6 +209,52 @@ TEST_P(CurvedPackets, EndARayWhereItIsOpaque) {
   whole.early_termination = 0;
   EXPECT_LT(packets.statistics.cells_visited,
             render(scene, oblique(scene), whole).statistics.cells_visited);
+}
+
+// As closely as was asked for, against the reference: parts keep the mean of what they stand for,
+// so that pictures come closer than the scalar code's.
+TEST_P(CurvedPackets, OfAdaptiveOrderKeepToTheirTolerance) {
+  Scene scene(wavy(generate(GetParam(), {5, 0.3, 2})));
+  scene.set_transfer_function(bumps());
+  const Camera camera = oblique(scene);
+  RenderSettings settings = settings_of(ScalarOrder::adaptive);
+  const Image right = render(scene, camera, reference_settings(settings)).image;
+  for_each_set([&] {
+    for (const double to : {1e-2, 1e-3, 1e-4}) {
+      settings.scalar_tolerance = to;
+      const RenderResult packets = render(scene, camera, settings);
+      EXPECT_GT(packets.statistics.rays_in_packets, 0u);
+      EXPECT_LE(greatest_difference(packets.image, right, Mode::volume, 0), to);
+    }
+  });
+}
+
+// A layer of cells whose far sides are nearly collapsed: along a ray through it the scalar goes
+// with a square root, and no cubic follows it.
+TEST(CurvedPacketsOfAdaptiveOrder, FollowWhatNoCubicDoes) {
+  Mesh mesh = wavy(generate("box-hexahedra", {9, 0, 2}));
+  std::vector<double> points;
+  for (std::size_t p = 0; p < mesh.point_count(); ++p) {
+    auto at = point_at(mesh, p);
+    const double off = at[0] - 0.5;
+    at[0] = 0.5 + off * (0.02 + at[2]);
+    at[1] += 0.3 * off * at[2];
+    points.insert(points.end(), at.begin(), at.end());
+  }
+  mesh.points = Array::own(std::move(points));
+  Scene scene(mesh);
+  scene.set_transfer_function(bumps());
+  const Camera camera = oblique(scene);
+  RenderSettings settings = settings_of(ScalarOrder::cubic);
+  const Image right = render(scene, camera, reference_settings(settings)).image;
+  EXPECT_GT(greatest_difference(render(scene, camera, settings).image, right, Mode::volume, 0),
+            4 * kTolerance);
+  settings.order = ScalarOrder::adaptive;
+  for_each_set([&] {
+    const RenderResult packets = render(scene, camera, settings);
+    EXPECT_GT(packets.statistics.rays_in_packets, 0u);
+    EXPECT_LE(greatest_difference(packets.image, right, Mode::volume, 0), kTolerance);
+  });
 }
 
 // Cells that no vector inverts: the scalar code is asked, or they are linear.
