@@ -71,9 +71,17 @@ RenderSettings settings_of(ScalarOrder order) {
 
 Camera oblique(const Scene& scene) { return fitted_camera(scene.bounds(), {-0.6, 0.5, -0.62}); }
 
+// The scalar code. Its parts are chords, all of which lie on one side of a bend; packets' keep the
+// mean, and are closer. So that packets' errors are seen and not the chords', it cuts finer.
+RenderSettings closer_twin(RenderSettings settings) {
+  settings.scalar_twin = true;
+  settings.scalar_tolerance = 1e-6;
+  return settings;
+}
+
 void expect_close(const Scene& scene, const Camera& camera, RenderSettings settings, double bound) {
   const RenderResult packets = render(scene, camera, settings);
-  settings.scalar_twin = true;
+  settings = closer_twin(settings);
   const RenderResult twin = render(scene, camera, settings);
   EXPECT_GT(packets.statistics.rays_in_packets, 0u);
   EXPECT_EQ(twin.statistics.rays_in_packets, 0u);
@@ -139,6 +147,9 @@ double bound_of(Mode mode) {
   }
 }
 
+// What cubics may be off by, in the field's unit, over the box's diagonal.
+constexpr double kOfCubics = 2 * 1.8 * kTolerance;
+
 TEST_P(CurvedPackets, FindTheNumbersThatTheTwinFinds) {
   Scene scene(wavy(generate(GetParam(), {9, 0.2, 2})));
   scene.set_transfer_function(bumps());
@@ -151,7 +162,7 @@ TEST_P(CurvedPackets, FindTheNumbersThatTheTwinFinds) {
         RenderSettings settings = settings_of(order);
         settings.mode = mode;
         const RenderResult packets = render(scene, camera, settings);
-        settings.scalar_twin = true;
+        settings = closer_twin(settings);
         const RenderResult twin = render(scene, camera, settings);
         EXPECT_GT(packets.statistics.rays_in_packets, 0u);
         EXPECT_EQ(twin.statistics.rays_in_packets, 0u);
@@ -164,7 +175,7 @@ TEST_P(CurvedPackets, FindTheNumbersThatTheTwinFinds) {
           ASSERT_FALSE(std::isnan(difference)) << i;
           worst = std::max(worst, difference);
         }
-        EXPECT_LE(worst, bound_of(mode));
+        EXPECT_LE(worst, bound_of(mode) + (order == ScalarOrder::adaptive ? kOfCubics : 0));
       }
   });
 }
@@ -229,19 +240,9 @@ TEST_P(CurvedPackets, OfAdaptiveOrderKeepToTheirTolerance) {
   });
 }
 
-// A layer of cells whose far sides are nearly collapsed: along a ray through it the scalar goes
-// with a square root, and no cubic follows it.
+// Cells so twisted that no cubic follows the scalar along a ray.
 TEST(CurvedPacketsOfAdaptiveOrder, FollowWhatNoCubicDoes) {
-  Mesh mesh = wavy(generate("box-hexahedra", {9, 0, 2}));
-  std::vector<double> points;
-  for (std::size_t p = 0; p < mesh.point_count(); ++p) {
-    auto at = point_at(mesh, p);
-    const double off = at[0] - 0.5;
-    at[0] = 0.5 + off * (0.02 + at[2]);
-    at[1] += 0.3 * off * at[2];
-    points.insert(points.end(), at.begin(), at.end());
-  }
-  mesh.points = Array::own(std::move(points));
+  const Mesh mesh = wavy(generate("twisted", {3, 0.45, 2}));
   Scene scene(mesh);
   scene.set_transfer_function(bumps());
   const Camera camera = oblique(scene);
