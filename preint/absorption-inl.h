@@ -60,10 +60,11 @@ HWY_INLINE VF ChiNear(VF m, VF d) {
   const VF x1 = Horner(m, 1.666666386e-01f, -8.332973194e-02f, 2.492751179e-02f, -5.084150682e-03f);
   const VF x2 = Horner(m, 1.666643902e-02f, -8.316904688e-03f, 2.203357911e-03f);
   const VF x3 = Horner(m, 1.189246844e-03f, -5.556506269e-04f);
-  VF sum = hn::MulAdd(hn::Set(DF(), 6.214152609e-05f), d, x3);
-  sum = hn::MulAdd(sum, d, x2);
-  sum = hn::MulAdd(sum, d, x1);
-  return hn::MulAdd(sum, d, hn::Mul(x0, m));
+  // Two short chains in the place of a long one.
+  const VF dd = hn::Mul(d, d);
+  const VF low = hn::MulAdd(x1, d, hn::Mul(x0, m));
+  const VF high = hn::MulAdd(hn::MulAdd(hn::Set(DF(), 6.214152609e-05f), d, x3), d, x2);
+  return hn::MulAdd(high, dd, low);
 }
 
 // 1 - exp(-m) for m in [0, 1].

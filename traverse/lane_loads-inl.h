@@ -34,9 +34,13 @@ constexpr std::size_t kMaxLanes = 16;
 
 // A bit of each lane: the sign of a float, whatever number it is.
 HWY_INLINE MF MaskOfBits(VF bits) {
+#if HWY_TARGET <= HWY_AVX3
+  return hn::MaskFromVec(bits);  // an instruction that looks at signs alone
+#else
   const DF d;
   return hn::MaskFromVec(
       hn::BitCast(d, hn::BroadcastSignBit(hn::BitCast(hn::RebindToSigned<DF>(), bits))));
+#endif
 }
 // bit ? yes : no
 HWY_INLINE VF Choose(VF bits, VF yes, VF no) {
@@ -85,20 +89,22 @@ HWY_INLINE TwoNumbers LoadTwo(const std::uint32_t* numbers) {
 
 // Rows 0 and 1 of the transposition, or 2 and 3: what lanes 0, 4, 8 and 12 (counted from `pairs`)
 // load, and what those after them do. Each load blends itself in: no instruction of its own.
+// (Functions, not lambdas: what GCC does not inline costs more than all else here.)
 struct TwoRows {
   VF first, second;
 };
+HWY_INLINE VF LoadRow(const float* HWY_RESTRICT base, std::size_t p0, std::size_t p1,
+                      std::size_t p2, std::size_t p3) {
+  __m512 lanes = _mm512_castps128_ps512(_mm_loadu_ps(base + 2 * p0));
+  lanes = _mm512_mask_broadcast_f32x4(lanes, 0x00F0, _mm_loadu_ps(base + 2 * p1));
+  lanes = _mm512_mask_broadcast_f32x4(lanes, 0x0F00, _mm_loadu_ps(base + 2 * p2));
+  return VF{_mm512_mask_broadcast_f32x4(lanes, 0xF000, _mm_loadu_ps(base + 2 * p3))};
+}
 HWY_INLINE TwoRows LoadTwoRows(const float* HWY_RESTRICT base, const std::uint32_t* pairs) {
   const TwoNumbers n0 = LoadTwo(pairs), n1 = LoadTwo(pairs + 4);
   const TwoNumbers n2 = LoadTwo(pairs + 8), n3 = LoadTwo(pairs + 12);
-  auto row = [&](std::size_t TwoNumbers::*of) {
-    auto load = [&](const TwoNumbers& n) { return _mm_loadu_ps(base + 2 * (n.*of)); };
-    __m512 lanes = _mm512_castps128_ps512(load(n0));
-    lanes = _mm512_mask_broadcast_f32x4(lanes, 0x00F0, load(n1));
-    lanes = _mm512_mask_broadcast_f32x4(lanes, 0x0F00, load(n2));
-    return VF{_mm512_mask_broadcast_f32x4(lanes, 0xF000, load(n3))};
-  };
-  return {row(&TwoNumbers::first), row(&TwoNumbers::second)};
+  return {LoadRow(base, n0.first, n1.first, n2.first, n3.first),
+          LoadRow(base, n0.second, n1.second, n2.second, n3.second)};
 }
 
 #else
