@@ -117,7 +117,7 @@ struct Across {
 // Where rays cross the triangle a, b, c: measure_triangle() in single precision, with products that
 // do not cancel. As the triangle winds about the ray, its corners' weights are the products' sizes,
 // whatever rounding made of their signs. No bound on one crossing has been measured; sums of
-// lengths are held against the twin's in tests/traverse/tet_packets_test.cpp.
+// lengths are held against the twin's in tests/traverse/packets_test.cpp.
 HWY_INLINE void Measure(const Corner<true>& a, const Corner<true>& b, const Corner<true>& c,
                         const Across& across, StepResult& result) {
   const DF d;

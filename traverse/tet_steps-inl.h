@@ -226,11 +226,10 @@ class TetSteps {
     }
   };
 
-  // How many of the four are below it.
+  // How many of the four are below it: numbers of points are below 2^31.
   static HWY_INLINE VU Rank(VU id, VU a, VU b, VU c, VU d) {
-    const DU du;
-    auto below = [&](VU other) { return hn::VecFromMask(du, hn::Lt(other, id)); };
-    return hn::Sub(hn::Zero(du), hn::Add(hn::Add(below(a), below(b)), hn::Add(below(c), below(d))));
+    auto below = [&](VU other) { return hn::ShiftRight<31>(hn::Sub(other, id)); };
+    return hn::Add(hn::Add(below(a), below(b)), hn::Add(below(c), below(d)));
   }
 
   const float* compact_cells() const {
