@@ -49,7 +49,7 @@ class GridSteps {
       : mesh_(mesh),
         points_(mesh.points.data()->position),
         axis_(axis),
-        twisted_(mesh.planar_faces != PlanarFaces::all),
+        twisted_(!mesh.planar_faces),
         directions_(mesh) {}
 
   void Put(State& state, std::size_t lane, const GridStart& start) const {
