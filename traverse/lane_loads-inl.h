@@ -136,14 +136,11 @@ HWY_INLINE TwoRows LoadTwoRows(const float* HWY_RESTRICT base, const std::uint32
 
 #endif
 
-// The four floats at base + 2 * pairs[lane] (x86 scales an index by 8 bytes at the most, so that
-// one in steps of 16 would take a shift for each lane): one 16-byte load a lane, then a
-// transposition within blocks of four lanes. On x86 that is faster than four gathers.
-HWY_INLINE FourFloats LoadFour(const float* HWY_RESTRICT base, const std::uint32_t* pairs) {
+// Rows of blocks of four floats become columns: block b of `p0` to `p3` has what lanes 4 b to
+// 4 b + 3 are given.
+HWY_INLINE FourFloats Transpose(VF p0, VF p1, VF p2, VF p3) {
   const DF d;
   const hn::Repartition<std::uint64_t, DF> d64;
-  const auto [p0, p1] = LoadTwoRows(base, pairs);
-  const auto [p2, p3] = LoadTwoRows(base, pairs + 2);
   const auto ab01 = hn::BitCast(d64, hn::InterleaveLower(d, p0, p1));
   const auto ab23 = hn::BitCast(d64, hn::InterleaveLower(d, p2, p3));
   const auto cd01 = hn::BitCast(d64, hn::InterleaveUpper(d, p0, p1));
@@ -152,6 +149,15 @@ HWY_INLINE FourFloats LoadFour(const float* HWY_RESTRICT base, const std::uint32
           hn::BitCast(d, hn::InterleaveUpper(d64, ab01, ab23)),
           hn::BitCast(d, hn::InterleaveLower(d64, cd01, cd23)),
           hn::BitCast(d, hn::InterleaveUpper(d64, cd01, cd23))};
+}
+
+// The four floats at base + 2 * pairs[lane] (x86 scales an index by 8 bytes at the most, so that
+// one in steps of 16 would take a shift for each lane): one 16-byte load a lane, then a
+// transposition within blocks of four lanes. On x86 that is faster than four gathers.
+HWY_INLINE FourFloats LoadFour(const float* HWY_RESTRICT base, const std::uint32_t* pairs) {
+  const auto [p0, p1] = LoadTwoRows(base, pairs);
+  const auto [p2, p3] = LoadTwoRows(base, pairs + 2);
+  return Transpose(p0, p1, p2, p3);
 }
 
 #endif  // HWY_TARGET == HWY_SCALAR
