@@ -273,6 +273,19 @@ class TetSteps {
   const std::uint32_t last_point_ = static_cast<std::uint32_t>(mesh_.points.size()) - 1;
 };
 
+// Calls walk.operator()<kAxis>() for the axis, 0 to 2.
+template <class WalkAlong>
+HWY_INLINE void WithAxis(int axis, const WalkAlong& walk) {
+  switch (axis) {
+    case 0:
+      return walk.template operator()<0>();
+    case 1:
+      return walk.template operator()<1>();
+    default:
+      return walk.template operator()<2>();
+  }
+}
+
 // Walks all rays of `feeder`, whose longest axis is `axis`; more packets with prefetching on meshes
 // that are larger than the caches.
 template <class Consumer>
@@ -291,14 +304,7 @@ void Walk(const WalkableTets& mesh, int axis, Consumer& consumer, PacketFeeder& 
     else
       walk_by.template operator()<kAxis, TetReads::large, kLargePackets>();
   };
-  switch (axis) {
-    case 0:
-      return walk.template operator()<0>();
-    case 1:
-      return walk.template operator()<1>();
-    default:
-      return walk.template operator()<2>();
-  }
+  WithAxis(axis, walk);
 }
 
 }  // namespace HWY_NAMESPACE
