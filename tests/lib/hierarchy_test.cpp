@@ -42,10 +42,9 @@ RenderResult search(const Scene& scene, const Camera& camera, const RenderSettin
 // Renders both ways and returns the statistics of the one through the hierarchy.
 RenderStatistics expect_same(const Scene& scene, const Camera& camera, RenderSettings settings,
                              const std::string& which, bool even_beside_packets = false) {
-  const bool can_search = !no_search(scene, settings, false);
-  const RenderResult searched = even_beside_packets && can_search ? search(scene, camera, settings)
-                                                                  : render(scene, camera, settings);
-  if (even_beside_packets && !can_search) return {};
+  if (even_beside_packets && no_search(scene, settings, false)) return {};
+  const RenderResult searched =
+      even_beside_packets ? search(scene, camera, settings) : render(scene, camera, settings);
   settings.scalar_twin = true;
   const RenderResult walked = render(scene, camera, settings);
   EXPECT_EQ(walked.statistics.rays_searched, 0u) << which;
