@@ -31,7 +31,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Goes through the hierarchy and hands to the target (see isosurface_target.h) the cells that its
+// Goes through the hierarchy and hands to the target (see segment_target.h) the cells that its
 // rays go through and that matter, more or less front to back, and all thin ones.
 template <class Target>
 class CellSearch : public SearchOrder<Target> {

@@ -31,7 +31,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 // All that matters and all that is special, or one of the two.
 enum class SearchPass { all, special, inside };
 
-// What TreeSearch asks, for a target (see isosurface_target.h).
+// What TreeSearch asks, for a target (see segment_target.h).
 template <class Target>
 class SearchOrder {
  public:
