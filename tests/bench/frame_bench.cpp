@@ -5,6 +5,7 @@
 #include <string>
 
 #include "plume/mesh/error.h"
+#include "plume/tests/bench/empty_cells_frames.h"
 #include "plume/tests/bench/empty_space_frames.h"
 #include "plume/tests/bench/hexahedra_frames.h"
 #include "plume/tests/bench/hierarchy_frames.h"
@@ -105,7 +106,8 @@ int main(int argc, char** argv) {
       good = plume::bench::compare_orders(hexahedra_options) && good;
     }
     if (modes) good = plume::bench::compare_modes(mode_options) && good;
-    if (hierarchy) good = plume::bench::compare_isosurfaces(hierarchy_options) && good;
+    if (hierarchy && !getenv("ONLYE")) good = plume::bench::compare_isosurfaces(hierarchy_options) && good;
+    if (hierarchy) good = plume::bench::compare_empty_cells(hierarchy_options) && good;
     if (empty_space) good = plume::bench::compare_empty_space(empty_options) && good;
     if (intervals) {
       good = plume::bench::compare_with_volume_alone(interval_options) && good;
