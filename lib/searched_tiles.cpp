@@ -46,6 +46,13 @@ TraceResult met(const SearchedRay& found) {
   return result;
 }
 
+double greatest_extinction(const TransferFunction& transfer_function) {
+  double greatest = 0;
+  for (const auto& knot : transfer_function.knots)
+    greatest = std::max<double>(greatest, knot.optics.extinction);
+  return greatest;
+}
+
 // How much of what lies behind a segment that hides at the least, in a scene that shows a volume
 // alone: as the pixel that it is given to says.
 template <class Walkable, class Integrator>
@@ -111,6 +118,8 @@ class SearchedTiles : public TileMaker {
     if (frame.settings().mode == Mode::volume)
       sought_.least_transmittance =
           (1 - 1e-9) * std::min(stops_at, double{static_cast<float>(stops_at)});
+    if (!is_classified(frame.scene(), frame.settings()) && frame.settings().mode == Mode::volume)
+      sought_.greatest_extinction = greatest_extinction(frame.scene().transfer_function());
     // What a ray carries from passage to passage, where there are intervals and isosurfaces.
     sought_.connected = is_classified(frame.scene(), frame.settings()) ? frame.gap() : -1;
   }

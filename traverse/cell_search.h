@@ -27,6 +27,9 @@ struct SoughtSegments {
   /// How much of what lies behind a segment is hidden by it, from 0 to 1, at the least; for several
   /// threads. Nothing: no segment hides anything.
   std::function<double(const Segment&)> opacity;
+  /// That is not asked as long as segments cannot hide enough, as none hides more than
+  /// 1 - exp(-greatest_extinction * its length).
+  double greatest_extinction = std::numeric_limits<double>::infinity();
   /// What lies behind segments that together let no more than that through does not matter.
   double least_transmittance = 0;
   /// World length: passages closer than that count as one, and rays with anything that matters

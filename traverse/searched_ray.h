@@ -23,7 +23,7 @@ struct FaceCrossing {
 /// A segment that was found.
 struct FoundSegment : Segment {
   double z_in = 0, z_out = 0;  ///< places of the ends in the sheared frame
-  double opacity = 0;          ///< see SoughtSegments
+  double opacity = -1;         ///< see SoughtSegments; -1 where that was not asked
   FaceCrossing in, out;        ///< by which it comes into the cell, and leaves it
   bool is_clear = false;       ///< nothing on the way to the cell can be behind where it comes in
   bool follows = false;        ///< on the segment before it, with nothing between them

@@ -27,6 +27,10 @@ class SegmentTarget {
     limits_.fill(-kInfinity);
     std::fill_n(limits_.begin(), bundle.size(), kInfinity);
     lasts_.fill(std::numeric_limits<double>::infinity());
+    lengths_.fill(0);
+    // Half of it, for all rounding.
+    if (std::isfinite(sought.greatest_extinction))
+      enough_length_ = -0.5 * std::log(sought.least_transmittance) / sought.greatest_extinction;
     transmittances_.fill(1);
     for (std::size_t ray = 0; ray < bundle.size(); ++ray) found[ray].clear();
   }
@@ -49,16 +53,14 @@ class SegmentTarget {
       const double t_in = frame.t(in.place.z), t_out = frame.t(out.place.z);
       if (!(t_in <= t_out)) return false;
       if (!matters(in.place.scalar, out.place.scalar)) return true;
-      const Segment segment{t_in, t_out, in.place.scalar, out.place.scalar, cells_.number_of(cell)};
-      const double opacity = sought_.opacity ? sought_.opacity(segment) : 0;
-      ray.add({segment,
+      ray.add({{t_in, t_out, in.place.scalar, out.place.scalar, cells_.number_of(cell)},
                in.place.z,
                out.place.z,
-               opacity,
+               -1,
                {in.face, in.rank},
                {out.face, out.rank},
                is_clear()});
-      if (opacity > 0) hide(index, opacity);
+      if (sought_.opacity) hide(index);
       return true;
     };
     if (!cells_.pass_through(cell, frame, pass)) ray.decline();
@@ -91,17 +93,26 @@ class SegmentTarget {
     return false;
   }
 
-  // What is found may hide what lies behind it.
-  void hide(std::size_t index, double opacity) {
-    transmittances_[index] *= 1 - opacity;
-    if (transmittances_[index] > sought_.least_transmittance) return;
+  // What was found last may hide what lies behind it.
+  void hide(std::size_t index) {
     SearchedRay& ray = found_[index];
-    transmittances_[index] = ray.drop_hidden(sought_.least_transmittance);
+    double& transmittance = transmittances_[index];
+    if (lengths_[index] < enough_length_) {
+      const FoundSegment& found = ray.segments().back();
+      lengths_[index] += found.t_out - found.t_in;
+      if (lengths_[index] < enough_length_) return;
+      for (FoundSegment& segment : ray.segments()) transmittance *= 1 - ask(segment);
+    } else {
+      transmittance *= 1 - ask(ray.segments().back());
+    }
+    if (transmittance > sought_.least_transmittance) return;
+    transmittance = ray.drop_hidden(sought_.least_transmittance);
     const FoundSegment& last = ray.segments().back();
     lasts_[index] = last.t_out;
     // What begins at the same place still matters.
     set_limit(index, std::nextafter(static_cast<float>(last.z_out * bundle_.sign()), kInfinity));
   }
+  double ask(FoundSegment& segment) const { return segment.opacity = sought_.opacity(segment); }
 
   // Whether a walk would come into each cell where the ray was found to. Into one that follows
   // another it does if it does there.
@@ -131,7 +142,8 @@ class SegmentTarget {
   alignas(64) std::array<float, RayBundle::kRays> limits_;
   mutable bool limits_changed_ = false;
   mutable float limit_ = kInfinity;
-  std::array<double, RayBundle::kRays> lasts_, transmittances_;
+  double enough_length_ = 0;  // shorter ones together cannot hide enough
+  std::array<double, RayBundle::kRays> lasts_, transmittances_, lengths_;
 };
 
 }  // namespace plume
