@@ -19,6 +19,8 @@ inline constexpr double kSearchRounding = 0x1p-20;
 class TetCells {
  public:
   using Cell = TetCell;
+  /// Whether cross_boundary() is called for faces that the ray crosses, once, and no others.
+  static constexpr bool kFacesAreCrossed = true;
 
   TetCells(const WalkableTets& mesh, const CellHierarchy& hierarchy)
       : mesh_(mesh), hierarchy_(hierarchy) {}
@@ -84,6 +86,7 @@ class AnyCells {
  public:
   using Mesh = typename Walker::Mesh;
   using Cell = std::uint32_t;
+  static constexpr bool kFacesAreCrossed = false;
 
   explicit AnyCells(const Mesh& mesh) : mesh_(mesh), passages_(mesh) {}
 

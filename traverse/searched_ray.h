@@ -38,7 +38,7 @@ class SearchedRay {
 
   void clear() {
     segments_.clear();
-    boundaries_ = cells_ = 0;
+    faces_met_ = boundaries_ = cells_ = 0;
     declined_ = false;
   }
   void decline() { declined_ = true; }
@@ -51,6 +51,19 @@ class SearchedRay {
   void cross_boundary(double t, float scalar, bool in) {
     if (boundaries_ == kMostBoundaries) return decline();
     crossings_[boundaries_++] = {t, scalar, in};
+  }
+
+  /// The same of a face that the ray crosses once: where, is left for later.
+  void meet_boundary(std::uint32_t face) {
+    if (faces_met_ == kMostBoundaries) return decline();
+    faces_[faces_met_++] = face;
+  }
+  std::span<const std::uint32_t> boundary_faces() const { return {faces_.data(), faces_met_}; }
+  /// Whether the ray meets no segment and two faces at the boundary. It has then come in once.
+  bool passes_once() {
+    if (declined_ || !segments_.empty() || faces_met_ != 2) return false;
+    entries_ = 1;
+    return true;
   }
 
   /// Drops the segments behind those, the nearest ones, that together let no more than that through
@@ -140,8 +153,9 @@ class SearchedRay {
   }
 
   std::vector<FoundSegment> segments_;
+  std::array<std::uint32_t, kMostBoundaries> faces_;
   std::array<Boundary, kMostBoundaries> crossings_;
-  std::size_t boundaries_ = 0, entries_ = 0, cells_ = 0;
+  std::size_t faces_met_ = 0, boundaries_ = 0, entries_ = 0, cells_ = 0;
   bool declined_ = false;
 };
 

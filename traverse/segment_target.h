@@ -69,7 +69,10 @@ class SegmentTarget {
 
   /// The ray may cross a face at the boundary: the number of one in the mesh's list.
   void cross_boundary(std::size_t index, std::uint32_t face) {
-    cells_.cross_boundary(face, bundle_.frame(index), found_[index]);
+    if constexpr (Cells::kFacesAreCrossed)
+      found_[index].meet_boundary(face);
+    else
+      cells_.cross_boundary(face, bundle_.frame(index), found_[index]);
     if (found_[index].declined()) set_limit(index, -kInfinity);
   }
 
@@ -77,6 +80,10 @@ class SegmentTarget {
     const auto differ = [this](float a, float b) { return matters(a, b); };
     for (std::size_t index = 0; index < bundle_.size(); ++index) {
       SearchedRay& ray = found_[index];
+      // Where on its way in and out a ray is that has nothing to show, nobody asks.
+      if (Cells::kFacesAreCrossed && ray.passes_once()) continue;
+      for (const std::uint32_t face : ray.boundary_faces())
+        cells_.cross_boundary(face, bundle_.frame(index), ray);
       ray.finish(bundle_.ray(index), lasts_[index], gaps, differ);
       if (!ray.declined() && !is_walked_to(index)) ray.decline();
     }

@@ -106,7 +106,7 @@ int main(int argc, char** argv) {
       good = plume::bench::compare_orders(hexahedra_options) && good;
     }
     if (modes) good = plume::bench::compare_modes(mode_options) && good;
-    if (hierarchy && !getenv("ONLYE")) good = plume::bench::compare_isosurfaces(hierarchy_options) && good;
+    if (hierarchy) good = plume::bench::compare_isosurfaces(hierarchy_options) && good;
     if (hierarchy) good = plume::bench::compare_empty_cells(hierarchy_options) && good;
     if (empty_space) good = plume::bench::compare_empty_space(empty_options) && good;
     if (intervals) {
