@@ -27,7 +27,8 @@ constexpr const char* kHelp = R"(plume_frame_bench: whole frames, from the rays 
                    split in data space against the paper's tables
   --tolerance      what is asked for, what the planner chooses, and what that comes to, in all modes
   --hierarchy      an opaque isosurface through the hierarchy of cells against walking to it, of
-                   10 million tetrahedra, hexahedra and mixed cells: only where it is asked for
+                   10 million tetrahedra, hexahedra and mixed cells; volumes of which little is
+                   seen: only where it is asked for
   --empty-space    passing over what is not seen of a rectilinear grid against walking through it:
                    only where it is asked for
                    all but these two where none is asked for
