@@ -121,27 +121,7 @@ class CellPassages {
     }
   }
 
-  /// Whether the ray, walked back from a way into a cell, has nowhere a place that is not before
-  /// it, until it has gone back by more than `distance` in z or has reached the boundary.
-  /// `reversed` is the frame of the ray that runs the other way: the same bits but for its sign.
-  bool comes_from_before(std::uint32_t cell, const CellCrossing& in, const ShearedFrame& reversed,
-                         double distance) const {
-    constexpr int kMost = 256;
-    const BoundaryFace behind = other_side(cell, in.face);
-    if (behind.cell == kNone) return true;
-    Walker back(mesh_, reversed);
-    back.enter(behind, in.rank);
-    for (int step = 0; step < kMost; ++step) {
-      const auto place = back.leave();
-      if (!place) return false;
-      const double forward = (in.place.z - place->z) * reversed.sign();
-      if (forward > 0) return false;
-      if (forward < -distance || !back.advance()) return true;
-    }
-    return false;
-  }
-
- private:
+  /// A face of a cell as the cell behind it knows it; kNone at the boundary.
   BoundaryFace other_side(std::uint32_t cell, std::uint32_t face) const {
     if constexpr (std::is_same_v<Mesh, WalkableGrid>) {
       return {mesh_.neighbor(cell, face), face ^ 1};
@@ -151,6 +131,27 @@ class CellPassages {
     }
   }
 
+  /// Whether the ray, walked back from a way into a cell at `z_in`, has nowhere a place that is not
+  /// before it, until it has gone back by more than `distance` in z or has reached the boundary.
+  /// `reversed` is the frame of the ray that runs the other way: the same bits but for its sign.
+  bool comes_from_before(std::uint32_t cell, std::uint32_t face, std::uint32_t rank, double z_in,
+                         const ShearedFrame& reversed, double distance) const {
+    constexpr int kMost = 256;
+    const BoundaryFace behind = other_side(cell, face);
+    if (behind.cell == kNone) return true;
+    Walker back(mesh_, reversed);
+    back.enter(behind, rank);
+    for (int step = 0; step < kMost; ++step) {
+      const auto place = back.leave();
+      if (!place) return false;
+      const double forward = (z_in - place->z) * reversed.sign();
+      if (forward > 0) return false;
+      if (forward < -distance || !back.advance()) return true;
+    }
+    return false;
+  }
+
+ private:
   const Mesh& mesh_;
   std::vector<CellCrossing> crossings_;
   std::vector<Passage> passages_;
