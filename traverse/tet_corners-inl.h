@@ -73,8 +73,8 @@ constexpr float kEdgeOn = 0x1p-96f;
 
 // The same of a triangle that the ray lies in the plane of, or nearly: on its two edges that cross
 // y = 0.
-HWY_NOINLINE void MeasureEdgeOn(Corner<true> a, Corner<true> b, Corner<true> c,
-                                StepResult& result) {
+inline HWY_NOINLINE void MeasureEdgeOn(Corner<true> a, Corner<true> b, Corner<true> c,
+                                       StepResult& result) {
   const DF d;
   const VF ab = hn::Xor(a.y, b.y), ac = hn::Xor(a.y, c.y);  // on different sides of y = 0
   const VF lone_b = hn::AndNot(ac, ab), lone_c = hn::AndNot(ab, ac);
