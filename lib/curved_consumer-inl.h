@@ -59,6 +59,46 @@ struct CurvedConsumer : VolumeConsumer<Pieces> {
   }
 };
 
+// VolumeConsumer with cubics that follow the scalar inside of each cell (ScalarOrder::adaptive).
+template <class Mesh, class Pieces>
+struct AdaptiveConsumer : VolumeConsumer<Pieces> {
+  using Base = VolumeConsumer<Pieces>;
+
+  InnerLanes<Mesh> inside;
+  float tolerance;
+
+  AdaptiveConsumer(const Base& linear, const Mesh& mesh, int axis, float off_by)
+      : Base(linear), inside(mesh, axis), tolerance(off_by) {}
+
+  void begin(std::size_t packet, std::size_t lane, const PacketStart& start) {
+    Base::begin(packet, lane, start);
+    inside.begin(packet, lane, start);
+  }
+  HWY_INLINE void ends_at(std::size_t packet, VF z) { inside.ends_at(packet, z); }
+
+  HWY_NOINLINE MF visit(std::size_t packet, MF active, VF length, VF s_in, VF s_out, VU cells) {
+    MF done = hn::MaskFromVec(hn::Zero(DF()));
+    inside.ForEachClosePart(
+        packet, active, cells, s_in, s_out, tolerance,
+        [&](MF on, MF curved, VF from, VF to, VF s_from, VF s_to, const VF(&inner)[2]) {
+          const optics::CurvedLanes<2> scalar(curved, s_from, s_to, inner);
+          done = hn::Or(done, add(packet, on, hn::Mul(length, hn::Sub(to, from)), scalar));
+          return done;
+        });
+    return done;
+  }
+
+ private:
+  // Not inlined, as it is called from more than one place.
+  HWY_NOINLINE MF add(std::size_t packet, MF on, VF length, const optics::CurvedLanes<2>& scalar) {
+    MF done = hn::MaskFromVec(hn::Zero(DF()));
+    scalar.ForEachLinearPart(on, length, tolerance, [&](MF still, VF from, VF to, VF part) {
+      done = Base::visit(packet, still, part, from, to, hn::Zero(DU()));
+    });
+    return done;
+  }
+};
+
 template <class Mesh>
 void CompositeCurved(const Mesh& mesh, const CurvedPackets& packets, int axis,
                      PacketFeeder& feeder) {
@@ -71,8 +111,10 @@ void CompositeCurved(const Mesh& mesh, const CurvedPackets& packets, int axis,
     auto walk = [&](auto consumer) { Walk(mesh, axis, consumer, feeder); };
     if (packets.order == ScalarOrder::quadratic)
       walk(CurvedConsumer<1, Mesh, Table>(linear, mesh, axis, tolerance));
-    else
+    else if (packets.order == ScalarOrder::cubic)
       walk(CurvedConsumer<2, Mesh, Table>(linear, mesh, axis, tolerance));
+    else
+      walk(AdaptiveConsumer<Mesh, Table>(linear, mesh, axis, tolerance));
   });
 }
 

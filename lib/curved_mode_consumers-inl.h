@@ -47,6 +47,42 @@ struct CurvedMode : Base {
   }
 };
 
+// ... given cubics that follow the scalar inside of each cell (ScalarOrder::adaptive).
+template <class Mesh, class Base>
+struct AdaptiveMode : Base {
+  InnerLanes<Mesh> inside;
+
+  AdaptiveMode(const Base& base, const Mesh& mesh, int axis) : Base(base), inside(mesh, axis) {}
+
+  void begin(std::size_t packet, std::size_t lane, const PacketStart& start) {
+    Base::begin(packet, lane, start);
+    inside.begin(packet, lane, start);
+  }
+  HWY_INLINE void ends_at(std::size_t packet, VF z) { inside.ends_at(packet, z); }
+
+  HWY_NOINLINE MF visit(std::size_t packet, MF active, VF way, VF s_in, VF s_out, VU cells) {
+    MF done = NoLanes();
+    inside.ForEachClosePart(
+        packet, active, cells, s_in, s_out, this->packets.tolerance,
+        [&](MF on, MF curved, VF from, VF to, VF s_from, VF s_to, const VF(&inner)[2]) {
+          done = hn::Or(done, add(packet, hn::AndNot(done, on), curved,
+                                  hn::Mul(way, hn::Sub(to, from)), to, s_from, s_to, inner));
+          return done;
+        });
+    return done;
+  }
+
+ private:
+  // Not inlined, as it is called from more than one place.
+  HWY_NOINLINE MF add(std::size_t packet, MF on, MF curved, VF way, VF to, VF s_from, VF s_to,
+                      const VF (&inner)[2]) {
+    if constexpr (requires(Base base) { base.ends_at(packet, way); })
+      Base::ends_at(packet, inside.Z(packet, to));
+    const optics::CurvedLanes<2> scalar(curved, s_from, s_to, inner);
+    return Base::visit_curved(packet, on, way, s_from, s_to, scalar);
+  }
+};
+
 template <class Mesh>
 void ReduceCurved(const Mesh& mesh, const ModePackets& packets, int axis, PacketFeeder& feeder) {
   ReduceBy<false>(packets, {}, [&](const auto& base) {
@@ -54,8 +90,10 @@ void ReduceCurved(const Mesh& mesh, const ModePackets& packets, int axis, Packet
     auto walk = [&](auto consumer) { Walk(mesh, axis, consumer, feeder); };
     if (packets.order == ScalarOrder::quadratic)
       walk(CurvedMode<1, Mesh, Base>(base, mesh, axis));
-    else
+    else if (packets.order == ScalarOrder::cubic)
       walk(CurvedMode<2, Mesh, Base>(base, mesh, axis));
+    else
+      walk(AdaptiveMode<Mesh, Base>(base, mesh, axis));
   });
 }
 

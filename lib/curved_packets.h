@@ -19,8 +19,8 @@ inline constexpr bool kCurvedPackets = std::is_same_v<typename Walkable::Walker,
 /// A volume along which the scalar is a polynomial in each cell.
 struct CurvedPackets {
   const PieceTable* volume = nullptr;
-  ScalarOrder order = ScalarOrder::quadratic;  ///< or cubic
-  /// Of the linear parts of segments, in the field's unit.
+  ScalarOrder order = ScalarOrder::quadratic;  ///< or cubic, or adaptive
+  /// Of the linear parts of segments and, adaptive, of the cubics; in the field's unit.
   float tolerance = 0;
   /// Transmittance at which a ray ends.
   float early_termination = 0;

@@ -63,7 +63,16 @@ Plan KeptPlans::get(const Scene& scene, const Camera& camera, const RenderSettin
       return plan;
     }
     const auto alike = std::find_if(kept_.begin(), kept_.end(), looks_alike);
-    if (alike != kept_.end()) before = alike->plan.order;
+    if (alike != kept_.end()) {
+      before = alike->plan.order;
+    } else {
+      const auto other_look = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& kept) {
+        return kept.classification.is_plain_volume() && now.classification.is_plain_volume() &&
+               of_all_views(kept.settings) == of_all_views(now.settings);
+      });
+      if (other_look != kept_.end()) before = other_look->plan.order;
+      if (before) before->of_other_look = true;
+    }
   }
   // Not under the lock: planning renders, on threads that may come here for another picture.
   now.plan = plan_for(scene, camera, settings, before ? &*before : nullptr);

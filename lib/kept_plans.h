@@ -25,8 +25,12 @@ namespace plume {
 /// |                                                      | and taken if the greatest estimate   |
 /// |                                                      | of all pictures so far is within what|
 /// |                                                      | is asked. Else planned anew          |
-/// | anything else differs (transfer function, tolerance, | planned anew. Where cells are linear |
-/// | mode, light, clip planes, ...)                       | that is a matter of microseconds     |
+/// | the settings, as above, and both show a plain volume | all is looked at, but the last order |
+/// | (another transfer function)                          | first: taken if its estimate here is |
+/// |                                                      | within what is asked, and nothing    |
+/// |                                                      | cheaper seems to be                  |
+/// | anything else differs (tolerance, mode, light, clip  | planned anew. Where cells are linear |
+/// | planes, ...)                                         | that is a matter of microseconds     |
 ///
 /// Threads, the window and further channels do not matter to a plan.
 ///

@@ -118,7 +118,7 @@ struct ExtremeConsumer {
   template <class Curved>
   HWY_INLINE MF visit_curved(std::size_t packet, MF active, VF, VF, VF s_out,
                              const Curved& scalar) {
-    see(packet, hn::Eq(s_out, s_out), s_out);
+    see(packet, hn::And(active, hn::Eq(s_out, s_out)), s_out);
     scalar.ForEachExtremum([&](MF lanes, VF value) { see(packet, hn::And(active, lanes), value); });
     return NoLanes();
   }
@@ -161,8 +161,9 @@ struct ScalarSumConsumer {
     return NoLanes();
   }
   template <class Curved>
-  HWY_INLINE MF visit_curved(std::size_t packet, MF, VF way, VF, VF, const Curved& scalar) {
-    add(packet, hn::Mul(way, scalar.Mean()), way);
+  HWY_INLINE MF visit_curved(std::size_t packet, MF active, VF way, VF, VF, const Curved& scalar) {
+    const VF mine = hn::IfThenElseZero(active, way);
+    add(packet, hn::Mul(mine, scalar.Mean()), mine);
     return NoLanes();
   }
   void end(std::size_t packet, std::size_t lane, const PacketStart& start, float z,
@@ -221,7 +222,7 @@ struct DepthSumConsumer {
   HWY_INLINE void add(std::size_t packet, MF active, VF s_in, VF s_out, VF length) {
     const DU du;
     VU at = hn::Load(du, piece[packet]);
-    optics::AddDepths(pieces, active, s_in, s_out, length, at,
+    optics::AddDepths(pieces, s_in, s_out, hn::IfThenElseZero(active, length), at,
                       [&](VF part) { depth.add(packet, part); });
     hn::Store(at, du, piece[packet]);
   }
@@ -297,7 +298,8 @@ struct FirstConsumer {
     for (; lanes != 0; lanes &= lanes - 1) {
       const std::size_t lane = hwy::Num0BitsBelowLS1Bit_Nonzero32(lanes);
       Segment segment{0, way[lane], front[lane], back[lane], 0};
-      if ((bent >> lane & 1u) != 0) segment.order = packets.order;
+      if ((bent >> lane & 1u) != 0)
+        segment.order = count == 1 ? ScalarOrder::quadratic : ScalarOrder::cubic;
       for (std::size_t i = 0; i < count; ++i) segment.inner[i] = inside[i][lane];
       if (packets.first->contributes(rays[packet][lane], z_out[packet][lane], segment)) {
         found[packet][lane] = true;

@@ -53,7 +53,7 @@ struct ModePackets {
   Mode mode = Mode::maximum;                    ///< all but `volume`
   const ExtinctionTable* extinction = nullptr;  ///< mode optical_depth
   const PacketFirst* first = nullptr;           ///< mode depth
-  ScalarOrder order = ScalarOrder::linear;      ///< or quadratic, or cubic
+  ScalarOrder order = ScalarOrder::linear;      ///< or higher
   float tolerance = 0;                          ///< as CurvedPackets has it
   std::span<PacketNumber> numbers;
   std::span<PacketColor> colors;  ///< cells, z and opaque alone are used

@@ -119,16 +119,15 @@ bool has_packets(const Scene& scene) {
 
 bool has_packets_of_order(const Scene& scene, const RenderSettings& settings) {
   if (is_linear(scene, settings)) return true;
-  return (settings.order == ScalarOrder::quadratic || settings.order == ScalarOrder::cubic) &&
-         std::visit(
-             [](const auto& walkable) {
-               using Form = std::decay_t<decltype(*walkable)>;
-               // What is inside of a cell is read from its eight corners.
-               if constexpr (std::is_same_v<typename Form::Walker, CellWalker>)
-                 if (walkable->mesh.corner_cells.empty()) return false;
-               return kCurvedPackets<Form>;
-             },
-             scene.body().walkable);
+  return std::visit(
+      [](const auto& walkable) {
+        using Form = std::decay_t<decltype(*walkable)>;
+        // What is inside of a cell is read from its eight corners.
+        if constexpr (std::is_same_v<typename Form::Walker, CellWalker>)
+          if (walkable->mesh.corner_cells.empty()) return false;
+        return kCurvedPackets<Form>;
+      },
+      scene.body().walkable);
 }
 
 std::optional<PacketPieces> pieces_for_packets(const Frame& frame) {

@@ -13,10 +13,12 @@
 ///   cancel, and is infinite where a cell is degenerate. So candidates are compared with the
 ///   reference on this very picture: on a small version of all of it, and then, pixel by pixel, in
 ///   windows around the places where the small version is worst (see Pilot, whose estimate is
-///   taken). tests/lib/planner_test.cpp and docs/evidence.md say how it fares.
-///   In the modes maximum, minimum and depth a pixel's error is that of one place, and no sample
-///   finds the worst: there the order is adaptive, to a tenth of the tolerance in shares of the
-///   field's range (1e-6 to 1e-4).
+///   taken). Where packets make the picture, the adaptive order by packets stands in for the
+///   reference as long as rounding is below 2% of the tolerance; these 2% are taken off.
+///   tests/lib/planner_test.cpp and docs/evidence.md say how it fares. In the modes maximum,
+///   minimum and depth a pixel's error is that of one place, and no sample finds the worst: there
+///   the order is adaptive, to a tenth of the tolerance in shares of the field's range (1e-6 to
+///   1e-4).
 /// - **What is forced** is measured likewise, and the plan says so where it does not keep to the
 ///   tolerance.
 ///
@@ -55,6 +57,8 @@ struct ChosenOrder {
   double estimate = 0, found = 0;
   /// What the next cheaper candidate had then, at least; infinite where there is none.
   double cheaper = 0;
+  /// Whether it was chosen for another classification.
+  bool of_other_look = false;
 };
 
 /// What a tolerance came to.
@@ -74,9 +78,10 @@ struct Plan {
 /// Settings without `tolerance`, chosen to keep to it, and the reasons. Renders small pictures to
 /// find out, where the scalar is not linear in all cells or something is forced.
 ///
-/// `before`: the order chosen for another picture of the same settings and look. It is looked at
-/// shortly on this picture, and taken where its error, on this and those before, is within what is
-/// asked; what is cheaper is tried again only where it may do by now.
+/// `before`: the order chosen for another picture of the same settings. Of the same look it is
+/// looked at shortly on this picture, and taken where its error, on this and those before, is
+/// within what is asked; of another look as closely as any candidate, but before all others. What
+/// is cheaper is tried again only where it may do by now.
 ///
 /// Requires settings.tolerance, and what check_settings() lets pass.
 Plan plan_for(const Scene& scene, const Camera& camera, const RenderSettings& settings,

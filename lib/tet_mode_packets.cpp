@@ -15,18 +15,10 @@ namespace HWY_NAMESPACE {
 // (has_mode_packets()). With them this file would compile three times as long, which is minutes.
 template <class Consumer>
 void WalkInTurn(const WalkableTets& mesh, int axis, Consumer& consumer, PacketFeeder& feeder) {
-  auto walk = [&]<int kAxis>() {
+  WithAxis(axis, [&]<int kAxis>() {
     using Steps = TetSteps<kAxis, TetReads::cached>;
     PacketWalk<Steps, kPackets, false, Consumer>(Steps(mesh), consumer, feeder).run();
-  };
-  switch (axis) {
-    case 0:
-      return walk.template operator()<0>();
-    case 1:
-      return walk.template operator()<1>();
-    default:
-      return walk.template operator()<2>();
-  }
+  });
 }
 
 void ReduceTet(const WalkableTets& mesh, const ModePackets& packets, int axis,

@@ -61,18 +61,18 @@ void sample_inside(const Mesh& mesh, const ShearedFrame& frame, double z_in, dou
     segment.order = order;
 }
 
-/// Cuts a linear segment from z_in to z_out in halves until in each part the cubic through four
+/// Cuts a linear segment in halves until in each part the cubic through four
 /// equidistant values (or, where that will do, the chord) is within `tolerance` of the scalar at a
 /// sixth, at half and at five sixths of the way, or the parts are 2^-12 of the segment (at a kink
 /// inside of a polyhedron, say). Calls visit(const Segment&) for each part until that returns
 /// false; returns whether all were visited. Parts join bit for bit. Where the inside has no answer
-/// the part is linear.
+/// the part is linear. `place_at` gives the Place at a share of the way.
 ///
 /// The tolerance holds where the scalar was looked at; what bends more between two such places is
 /// not seen. Below 1e-6 of the field's range there is nothing but rounding.
-template <class Mesh, class Visit>
-bool for_each_close_part(const Mesh& mesh, const ShearedFrame& frame, double z_in, double z_out,
-                         double tolerance, const Segment& whole, Visit&& visit) {
+template <class Mesh, class PlaceAt, class Visit>
+bool for_each_close_part(const Mesh& mesh, const PlaceAt& place_at, double tolerance,
+                         const Segment& whole, Visit&& visit) {
   constexpr int kDeepest = 12;
   auto part = [&](auto& self, double from, double to, float s_in, float s_out, int depth) -> bool {
     Segment segment = whole;
@@ -83,8 +83,7 @@ bool for_each_close_part(const Mesh& mesh, const ShearedFrame& frame, double z_i
     segment.s_out = s_out;
     std::array<Place, 5> places;  // at a sixth, two, three, four, five
     for (std::size_t i = 0; i < 5; ++i) {
-      const double share = from + (to - from) * static_cast<double>(i + 1) / 6;
-      places[i] = frame.local(z_in + share * (z_out - z_in));
+      places[i] = place_at(from + (to - from) * static_cast<double>(i + 1) / 6);
     }
     std::array<float, 5> values;
     if (!scalars_inside(mesh, whole.cell, places, values.data())) return visit(segment);

@@ -95,13 +95,14 @@ TraceResult trace(const typename Walker::Mesh& mesh, const BoundaryIndex<Walker>
       bool more = true;
       if (bends && request.order == ScalarOrder::adaptive && mesh.cell_values.empty() &&
           z_from != exit->z) {
-        more = for_each_close_part(mesh, frame, z_from, exit->z, request.tolerance, segment,
-                                   [&](Segment part) {
-                                     if (part.t_out < seen_until || part.t_in > ray.t_max)
-                                       return true;
-                                     cut(part, seen_until, ray.t_max);
-                                     return static_cast<bool>(visit(std::as_const(part)));
-                                   });
+        auto place_at = [&](double share) {
+          return frame.local(z_from + share * (exit->z - z_from));
+        };
+        more = for_each_close_part(mesh, place_at, request.tolerance, segment, [&](Segment part) {
+          if (part.t_out < seen_until || part.t_in > ray.t_max) return true;
+          cut(part, seen_until, ray.t_max);
+          return static_cast<bool>(visit(std::as_const(part)));
+        });
       } else {
         if (bends) sample_inside(mesh, frame, z_from, exit->z, request.order, segment);
         cut(segment, seen_until, ray.t_max);
