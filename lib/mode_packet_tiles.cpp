@@ -178,10 +178,11 @@ bool has_mode_packets(const Frame& frame) {
          settings.clip_planes.empty() && !settings.scalar_twin && settings.channels.empty();
 }
 
-double mode_packet_error(const Scene& scene, Mode mode) {
-  constexpr double kOfNumbers = 1e-5;
+double mode_packet_error(const Scene& scene, const RenderSettings& settings) {
+  const Mode mode = settings.mode;
+  const double of_numbers = is_linear(scene, settings) ? 1e-5 : 2.5e-5;
   if (mode == Mode::cell_count) return 0;
-  if (in_words(mode).shade != ShadeBy::transfer_function) return kOfNumbers;
+  if (in_words(mode).shade != ShadeBy::transfer_function) return of_numbers;
   const auto& knots = scene.transfer_function().knots;
   const double range = static_cast<double>(scene.field().high) - scene.field().low;
   double steepest = 0;
@@ -191,7 +192,7 @@ double mode_packet_error(const Scene& scene, Mode mode) {
       const double width = static_cast<double>(knots[k].scalar) - knots[k - 1].scalar;
       if (change > 0) steepest = std::max(steepest, change / width);  // infinite at a step
     }
-  return steepest * range * kOfNumbers;
+  return steepest * range * of_numbers;
 }
 
 std::unique_ptr<TileMaker> mode_packet_tiles(Frame& frame) {

@@ -49,7 +49,7 @@ RenderResult render_here(const Scene& scene, const Camera& camera, const RenderS
   const bool had_hierarchy = has_hierarchy(scene);
   std::optional<PacketPieces> pieces = pieces_for_packets(frame);
   // Numbers in single precision, where that is no more than a share of what was asked for.
-  const bool single_will_do = !settings.tolerance || mode_packet_error(scene, effective.mode) <=
+  const bool single_will_do = !settings.tolerance || mode_packet_error(scene, effective) <=
                                                          settings.tolerance->max_error / 4;
   bool by_packets = pieces || (single_will_do && has_mode_packets(frame));
   const SearchChoice choice = choose_search(scene, effective, by_packets);
@@ -62,8 +62,9 @@ RenderResult render_here(const Scene& scene, const Camera& camera, const RenderS
   else if (has_packets(scene) && !frame.empty_space())
     plan.push_back(
         by_packets ? fmt::format("rays: in packets, {}", packet_instruction_set())
-                   : "rays: one by one (packets serve order 1, volumes by the closed form, without "
-                     "tables or the linear form of intervals, clip planes and further channels)");
+                   : "rays: one by one (packets serve volumes by the closed form, of order 1 or in "
+                     "grids and mixed cells, without tables or the linear form of intervals, clip "
+                     "planes and further channels)");
   if (!choice.search && !choice.why.empty())
     plan.push_back(fmt::format("rays: walked, not through a hierarchy of cells: {}", choice.why));
   if (settings.mode == Mode::volume) {

@@ -91,7 +91,9 @@ bool for_each_close_part(const Mesh& mesh, const PlaceAt& place_at, double toler
       return std::abs(scalar_at(segment, static_cast<double>(i + 1) / 6) - values[i]);
     };
     bool close = true;
-    for (std::size_t i = 0; i < 5; ++i) close = close && !(off_by(i) > tolerance);
+    // What is no number is not close: the segment is then transparent, as those of other orders
+    // are.
+    for (std::size_t i = 0; i < 5; ++i) close = close && off_by(i) <= tolerance;
     if (close) return visit(segment);
     segment.order = ScalarOrder::cubic;
     segment.inner[0] = values[1];
