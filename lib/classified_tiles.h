@@ -11,7 +11,10 @@ template <class Walkable, class Integrator>
 class ClassifiedTiles : public TileMaker {
  public:
   ClassifiedTiles(Frame& frame, const Walkable& walkable, const Integrator& integrator)
-      : frame_(frame), walkable_(walkable), pixels_(frame, walkable, integrator) {}
+      : frame_(frame),
+        walkable_(walkable),
+        integrator_(integrator),
+        pixels_(frame, walkable, integrator) {}
 
   void make(const Tile& tile, Counts& counts) override {
     frame_.for_each_pixel(tile, [&](const PixelPlace& place) { make_pixel(place, counts); });
@@ -19,14 +22,22 @@ class ClassifiedTiles : public TileMaker {
 
   void make_pixel(const PixelPlace& place, Counts& counts) {
     const Ray ray = frame_.ray(place);
-    counts.add(pixels_.make(place, ray, counts, [&](auto& pixel) {
-      return trace_clipped(frame_, walkable_, ray, pixel);
-    }));
+    make_pixel(place, counts,
+               [&](auto& pixel) { return trace_clipped(frame_, walkable_, ray, pixel); });
   }
+
+  /// Of the segments that follow(pixel) gives to the ClassifiedPixel until that returns false.
+  template <class Follow>
+  void make_pixel(const PixelPlace& place, Counts& counts, const Follow& follow) {
+    counts.add(pixels_.make(place, frame_.ray(place), counts, follow));
+  }
+
+  const Integrator& integrator() const { return integrator_; }
 
  private:
   Frame& frame_;
   const Walkable& walkable_;
+  const Integrator& integrator_;
   ClassifiedPixels<Walkable, Integrator> pixels_;
 };
 

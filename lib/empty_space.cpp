@@ -27,6 +27,7 @@ bool has_surfaces(const Scene& scene) {
 bool may_pass_over(const Scene& scene, const RenderSettings& settings, const Grid& grid) {
   const bool extreme = settings.mode == Mode::maximum || settings.mode == Mode::minimum;
   if (!shows_classification(settings.mode) && !extreme) return false;
+  if (is_blurred(scene, settings)) return false;
   const auto& channels = settings.channels;
   auto asked = [&](const char* name) { return std::count(channels.begin(), channels.end(), name); };
   if (asked("cell_count") || asked("optical_depth")) return false;

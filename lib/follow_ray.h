@@ -39,30 +39,40 @@ TraceResult trace_clipped(const Frame& frame, const Walkable<RectilinearWalker>&
   return trace_ranges(walkable.mesh, *space->tree, ray, matters, visit, pass_over, request.order);
 }
 
-/// Follows the ray of a pixel, gives its segments to `consumer` until that returns false, and fills
-/// in the further channels, for which the ray may go on.
-template <class Walker, class Consumer>
-TraceResult follow_ray(Frame& frame, const Walkable<Walker>& walkable, const PixelPlace& pixel,
-                       Consumer& consumer) {
+/// Gives the segments of a pixel's ray to `consumer` until that returns false, and fills in the
+/// further channels, for which the ray may go on. `follow(visit)` calls visit(const Segment&) for
+/// them, front to back, until it returns false; those without extinction may be left out.
+template <class Walker, class Consumer, class Follow>
+TraceResult follow_segments(Frame& frame, const Walkable<Walker>& walkable, const PixelPlace& pixel,
+                            Consumer& consumer, const Follow& follow) {
   const ChannelPlaces& channels = frame.channels();
-  const Ray ray = frame.ray(pixel);
-  if (!channels.any_of_segments()) return trace_clipped(frame, walkable, ray, consumer);
+  if (!channels.any_of_segments()) return follow(consumer);
   FirstPixel first{frame.optical_depth(), frame.tolerance()};
   OpticalDepthPixel depth{frame.optical_depth(), frame.tolerance()};
   CellCountPixel cells;
   bool more = true, look = true;
-  const TraceResult result = trace_clipped(frame, walkable, ray, [&](const Segment& segment) {
+  auto visit = [&](const Segment& segment) {
     if (look) look = first(segment);
     if (channels.optical_depth) depth(segment);
     cells(segment);
     if (more) more = consumer(segment);
     return more || channels.whole_rays();
-  });
+  };
+  const TraceResult result = follow(visit);
   frame.put(channels.depth, pixel, first.depth);
   frame.put(channels.optical_depth, pixel, depth.depth);
   frame.put(channels.cell_count, pixel, cells.value());
   frame.put(channels.cell_id, pixel, first.seen() ? walkable.mesh.original_cell(first.cell) : -1.0);
   return result;
+}
+
+/// The same of all segments of what clip planes keep of the ray.
+template <class Walker, class Consumer>
+TraceResult follow_ray(Frame& frame, const Walkable<Walker>& walkable, const PixelPlace& pixel,
+                       Consumer& consumer) {
+  return follow_segments(frame, walkable, pixel, consumer, [&](auto& visit) {
+    return trace_clipped(frame, walkable, frame.ray(pixel), visit);
+  });
 }
 
 }  // namespace plume

@@ -222,7 +222,7 @@ struct DepthSumConsumer {
   HWY_INLINE void add(std::size_t packet, MF active, VF s_in, VF s_out, VF length) {
     const DU du;
     VU at = hn::Load(du, piece[packet]);
-    optics::AddDepths(pieces, active, s_in, s_out, length, at,
+    optics::AddDepths(pieces, s_in, s_out, hn::IfThenElseZero(active, length), at,
                       [&](VF part) { depth.add(packet, part); });
     hn::Store(at, du, piece[packet]);
   }

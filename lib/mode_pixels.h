@@ -19,8 +19,16 @@ class ModeTiles : public TileMaker {
   }
 
   void make_pixel(const PixelPlace& place, Counts& counts) {
+    make_pixel(place, counts, [&](auto& visit) {
+      return trace_clipped(frame_, walkable_, frame_.ray(place), visit);
+    });
+  }
+
+  /// Of the segments that follow_segments() is given.
+  template <class Follow>
+  void make_pixel(const PixelPlace& place, Counts& counts, const Follow& follow) {
     Pixel pixel = fresh_;
-    counts.add(follow_ray(frame_, walkable_, place, pixel));
+    counts.add(follow_segments(frame_, walkable_, place, pixel, follow));
     frame_.put_raw(place, pixel.value(), pixel.seen());
   }
 

@@ -9,6 +9,7 @@
 #include "plume/lib/render_check.h"
 #include "plume/lib/render_plan.h"
 #include "plume/lib/scene_body.h"
+#include "plume/lib/search_choice.h"
 #include "plume/lib/tiles.h"
 #include "plume/traverse/packets.h"
 
@@ -51,23 +52,21 @@ RenderResult render_here(const Scene& scene, const Camera& camera, const RenderS
   const bool single_will_do = !settings.tolerance || mode_packet_error(scene, effective) <=
                                                          settings.tolerance->max_error / 4;
   bool by_packets = pieces || (single_will_do && has_mode_packets(frame));
-  const auto why_walked = no_search(scene, effective, by_packets);
+  const SearchChoice choice = choose_search(scene, effective, by_packets);
   frame.set_empty_space(find_empty_space(scene, effective, by_packets, plan));
   by_packets = by_packets && !frame.empty_space();
-  if (!why_walked)
-    plan.push_back(fmt::format("rays: through a hierarchy of cells ({}), as only {}",
+  if (choice.search)
+    plan.push_back(fmt::format("rays: through a hierarchy of cells ({}), as {}",
                                had_hierarchy ? "made before" : "made for this picture",
-                               is_classified(scene, settings)
-                                   ? "isosurfaces are to be seen"
-                                   : "cells with a greater or lesser scalar need a look"));
+                               choice.why));
   else if (has_packets(scene) && !frame.empty_space())
     plan.push_back(
         by_packets ? fmt::format("rays: in packets, {}", packet_instruction_set())
                    : "rays: one by one (packets serve volumes by the closed form, of order 1 or in "
                      "grids and mixed cells, without tables or the linear form of intervals, clip "
                      "planes and further channels)");
-  if (why_walked && is_classified(scene, settings) && !scene.classification().isosurfaces.empty())
-    plan.push_back(fmt::format("rays: walked, not through a hierarchy of cells: {}", *why_walked));
+  if (!choice.search && !choice.why.empty())
+    plan.push_back(fmt::format("rays: walked, not through a hierarchy of cells: {}", choice.why));
   if (settings.mode == Mode::volume) {
     if (frame.channels().whole_rays()) effective.early_termination = 0;
     plan.push_back(frame.channels().whole_rays()
@@ -85,7 +84,7 @@ RenderResult render_here(const Scene& scene, const Camera& camera, const RenderS
   const bool by_table =
       is_classified(scene, settings) && settings.interval_way == IntervalWay::table;
   const auto maker = by_table                         ? table_tiles(frame)
-                     : !why_walked                    ? searched_tiles(frame, integrator)
+                     : choice.search                  ? searched_tiles(frame, integrator)
                      : by_packets && pieces           ? packet_tiles(frame, integrator, *pieces)
                      : by_packets                     ? mode_packet_tiles(frame)
                      : is_classified(scene, settings) ? classified_tiles(frame, integrator)

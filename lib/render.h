@@ -163,7 +163,7 @@ struct RenderStatistics {
   std::uint64_t cells_visited = 0;    ///< cells walked through by all rays
   std::uint64_t lost_rays = 0;        ///< rays that found no way out: 0
   std::uint64_t rays_in_packets = 0;  ///< rays walked by packets; the others one by one
-  /// Rays that found isosurfaces through the hierarchy of cells, without a walk; their
+  /// Rays that found what there is to see through the hierarchy of cells, without a walk; their
   /// `cells_visited` are those looked at.
   std::uint64_t rays_searched = 0;
   /// Whether that hierarchy, or a rectilinear grid's tree of ranges, was made for this picture:

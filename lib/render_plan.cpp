@@ -17,6 +17,12 @@ bool has_linear_cells(const Scene& scene) {
          std::string(scene.form()) == "tetrahedra";
 }
 
+bool is_blurred(const Scene& scene, const RenderSettings& settings) {
+  return settings.mode == Mode::volume && scene.classification().volume &&
+         (settings.integrator.kind == IntegratorKind::table ||
+          settings.integrator.kind == IntegratorKind::second_order_table);
+}
+
 bool is_linear(const Scene& scene, const RenderSettings& settings) {
   return settings.order == ScalarOrder::linear || has_linear_cells(scene);
 }

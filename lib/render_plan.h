@@ -19,6 +19,10 @@ bool has_linear_cells(const Scene& scene);
 /// Whether the scalar is linear along every segment, as it is there and at order 1.
 bool is_linear(const Scene& scene, const RenderSettings& settings);
 
+/// Whether what has no extinction may be seen, as a table blurs what is between its entries: then
+/// no part of a ray may be passed over.
+bool is_blurred(const Scene& scene, const RenderSettings& settings);
+
 /// What follows from the scene and the settings alone, one choice a line.
 std::vector<std::string> describe_plan(const Scene& scene, const RenderSettings& settings);
 

@@ -1,27 +1,25 @@
 #include <tbb/enumerable_thread_specific.h>
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
-#include <string>
+#include <functional>
+#include <utility>
 #include <variant>
 #include <vector>
 
-#include "plume/lib/classified_pixels.h"
+#include "plume/lib/classified_tiles.h"
 #include "plume/lib/follow_ray.h"
+#include "plume/lib/mode_pixels.h"
 #include "plume/lib/render_plan.h"
+#include "plume/lib/search_choice.h"
 #include "plume/lib/tile_bundles.h"
 #include "plume/lib/tiles.h"
+#include "plume/lib/volume_tiles.h"
 #include "plume/mesh/cell_hierarchy.h"
 #include "plume/traverse/cell_search.h"
 
 namespace plume {
 namespace {
-
-// Of a grid of 512,000 cells an isosurface takes packets 1.0 to 1.4 times as long as the search, of
-// 165,000 cells of all kinds 0.6 to 1.1 times; of fewer, they are
-// faster. Of tetrahedra the search is, whatever their number: plume_frame_bench --hierarchy.
-constexpr std::size_t kFewestBesidePackets = 300000;
 
 // What is searched of a scene's form, and what of it a thread keeps.
 template <class Walkable>
@@ -41,16 +39,6 @@ struct Searched<Walkable<TetWalker>> {
   }
 };
 
-// In the order in which they are looked for.
-std::vector<SoughtIsovalue> sought_isovalues(const Classification& classification) {
-  std::vector<SoughtIsovalue> sought;
-  for (const Isosurface& surface : classification.isosurfaces)
-    sought.push_back({surface.value, surface.opacity >= 1});
-  std::sort(sought.begin(), sought.end(),
-            [](const SoughtIsovalue& a, const SoughtIsovalue& b) { return a.value < b.value; });
-  return sought;
-}
-
 TraceResult met(const SearchedRay& found) {
   TraceResult result;
   result.entries = static_cast<std::uint32_t>(found.entries());
@@ -58,54 +46,110 @@ TraceResult met(const SearchedRay& found) {
   return result;
 }
 
+double greatest_extinction(const TransferFunction& transfer_function) {
+  double greatest = 0;
+  for (const auto& knot : transfer_function.knots)
+    greatest = std::max<double>(greatest, knot.optics.extinction);
+  return greatest;
+}
+
+// How much of what lies behind a segment that hides at the least, in a scene that shows a volume
+// alone: as the pixel that it is given to says.
 template <class Walkable, class Integrator>
+std::function<double(const Segment&)> opacity_of(const Frame&,
+                                                 const VolumeTiles<Walkable, Integrator>& tiles) {
+  return [&tiles](const Segment& segment) {
+    VolumePixel<Integrator> pixel = tiles.fresh();
+    pixel(segment);
+    return pixel.compositor.alpha();
+  };
+}
+
+// The mode depth.
+template <class Walkable>
+std::function<double(const Segment&)> opacity_of(const Frame& frame,
+                                                 const ModeTiles<Walkable, FirstPixel>&) {
+  return [&optics = frame.optical_depth()](const Segment& segment) {
+    return optics(segment.s_in, segment.s_out, segment_length(segment)) > 0 ? 1.0 : 0.0;
+  };
+}
+
+// With isosurfaces and intervals. Of intervals it is not known without what lies before.
+template <class Walkable, class Integrator>
+std::function<double(const Segment&)> opacity_of(
+    const Frame& frame, const ClassifiedTiles<Walkable, Integrator>& tiles) {
+  const Classification& classification = frame.scene().classification();
+  const bool ends_at_first = frame.settings().mode == Mode::depth;
+  return [&, ends_at_first, ranges = ScalarRanges(classification)](const Segment& segment) {
+    const float low = std::min(segment.s_in, segment.s_out);
+    const float high = std::max(segment.s_in, segment.s_out);
+    for (const Isosurface& surface : classification.isosurfaces)
+      if (low < surface.value && surface.value <= high &&
+          (surface.opacity >= 1 || (ends_at_first && surface.opacity > 0)))
+        return 1.0;
+    const std::size_t range = ranges.range_of(low);
+    if (ends_at_first || !classification.volume || range != ranges.range_of(high) ||
+        ranges.interval_of(range) != ScalarRanges::kNothing)
+      return 0.0;
+    return static_cast<double>(
+        tiles.integrator().integrate(segment.s_in, segment.s_out, segment_length(segment)).alpha);
+  };
+}
+
+// `Pixels` makes pixels of segments, and walks the rays that are declined.
+template <class Walkable, class Pixels>
 class SearchedTiles : public TileMaker {
   using Bundles = TileBundles<typename Searched<Walkable>::Cache>;
 
  public:
-  SearchedTiles(Frame& frame, const Walkable& walkable, const Integrator& integrator)
+  SearchedTiles(Frame& frame, const Walkable& walkable, Pixels pixels)
       : frame_(frame),
-        walkable_(walkable),
-        pixels_(frame, walkable, integrator),
-        isovalues_(sought_isovalues(frame.scene().classification())),
-        connected_(frame.gap()),
+        pixels_(std::move(pixels)),
+        windows_(visible_windows(frame.scene().classification())),
         background_(frame.settings().mode == Mode::volume && frame.settings().channels.empty()),
         bundles_([&] {
           return Bundles(walkable.mesh, Searched<Walkable>::of(frame.scene(), walkable));
         }) {
     Searched<Walkable>::of(frame.scene(), walkable);
+    sought_.windows = windows_;
+    sought_.opacity = opacity_of(frame, pixels_);
+    // Pixels stop at that; products are rounded.
+    const double stops_at = frame.settings().early_termination;
+    if (frame.settings().mode == Mode::volume)
+      sought_.least_transmittance =
+          (1 - 1e-9) * std::min(stops_at, double{static_cast<float>(stops_at)});
+    if (!is_classified(frame.scene(), frame.settings()) && frame.settings().mode == Mode::volume)
+      sought_.greatest_extinction = greatest_extinction(frame.scene().transfer_function());
+    // What a ray carries from passage to passage, where there are intervals and isosurfaces.
+    sought_.connected = is_classified(frame.scene(), frame.settings()) ? frame.gap() : -1;
   }
 
   void make(const Tile& tile, Counts& counts) override {
     Bundles& bundles = bundles_.local();
     auto walk = [&](const typename Bundles::TileRay& ray) {
-      counts.add(pixels_.make(ray.place, ray.ray, counts, [&](auto& pixel) {
-        return trace_clipped(frame_, walkable_, ray.ray, pixel);
-      }));
+      pixels_.make_pixel(ray.place, counts);
     };
     bundles.for_each(
         frame_, tile,
-        [&] {
-          find_isosurfaces(bundles.leaves, isovalues_, connected_, bundles.bundle, bundles.found);
-        },
+        [&] { find_segments(bundles.leaves, sought_, bundles.bundle, bundles.found); },
         [&](const typename Bundles::TileRay& ray, std::size_t i) {
           const SearchedRay& found = bundles.found[i];
           if (found.declined()) return walk(ray);
           ++counts.searched;
           if (found.segments().empty() && background_) return counts.add(met(found));
-          counts.add(pixels_.make(ray.place, ray.ray, counts,
-                                  [&](auto& pixel) { return give(found, pixel); }));
+          pixels_.make_pixel(ray.place, counts, [&](auto& visit) { return give(found, visit); });
         },
         walk);
   }
 
  private:
-  template <class Pixel>
-  static TraceResult give(const SearchedRay& found, Pixel& pixel) {
+  template <class Visit>
+  static TraceResult give(const SearchedRay& found, Visit& visit) {
     TraceResult result = met(found);
-    for (const Segment& segment : found.segments()) {
-      pixel.pass_over();
-      if (pixel(segment)) continue;
+    for (const FoundSegment& segment : found.segments()) {
+      if constexpr (requires { visit.pass_over(); })
+        if (!segment.follows) visit.pass_over();
+      if (visit(static_cast<const Segment&>(segment))) continue;
       result.end = WalkEnd::stopped;
       break;
     }
@@ -113,10 +157,9 @@ class SearchedTiles : public TileMaker {
   }
 
   Frame& frame_;
-  const Walkable& walkable_;
-  ClassifiedPixels<Walkable, Integrator> pixels_;
-  const std::vector<SoughtIsovalue> isovalues_;
-  const double connected_;
+  Pixels pixels_;
+  const std::vector<ScalarWindow> windows_;
+  SoughtSegments sought_;
   const bool background_;  // a pixel is the image's background until something is put there
   tbb::enumerable_thread_specific<Bundles> bundles_;
 };
@@ -170,59 +213,6 @@ class ExtremeTiles : public TileMaker {
   tbb::enumerable_thread_specific<Bundles> bundles_;
 };
 
-// Of a grid or of cells of any kind. All crooked cells on a ray are looked at before its greatest
-// or least scalar is sought: the 3% of an O-grid, around its axis, made that 1.6 times as slow as a
-// walk; 0.3% of a box did not hurt.
-bool has_many_crooked_cells(const Scene& scene) {
-  return std::visit(
-      [&](const auto& walkable) {
-        using Form = std::decay_t<decltype(*walkable)>;
-        std::size_t crooked = 0;
-        if constexpr (std::is_same_v<typename Form::Walker, GridWalker> ||
-                      std::is_same_v<typename Form::Walker, CellWalker>)
-          for (const std::uint16_t bits : Searched<Form>::of(scene, *walkable).crooked)
-            crooked += static_cast<std::size_t>(std::popcount(bits));
-        return crooked > scene.cell_count() / 100;
-      },
-      scene.body().walkable);
-}
-
-}  // namespace
-
-std::optional<std::string> no_search(const Scene& scene, const RenderSettings& settings,
-                                     bool by_packets) {
-  const Classification& classification = scene.classification();
-  const bool extreme = settings.mode == Mode::maximum || settings.mode == Mode::minimum;
-  if (!extreme && (!is_classified(scene, settings) || classification.isosurfaces.empty()))
-    return "there is no isosurface to look for";
-  if (!extreme && (classification.volume || !classification.intervals.empty()))
-    return "all cells that are not empty are to be seen, not isosurfaces alone";
-  const auto& form = scene.body().walkable;
-  if (std::holds_alternative<std::unique_ptr<Walkable<RectilinearWalker>>>(form))
-    return "it is for cells between points, not between planes";
-  const auto* tets = std::get_if<std::unique_ptr<Walkable<TetWalker>>>(&form);
-  if (tets && (*tets)->mesh.is_compact())
-    return "compact tetrahedra are known only to who walks to them";
-  if (scene.field().association == Association::cell) return "the scalar is constant in each cell";
-  if (!is_linear(scene, settings)) return "the scalar is not linear along segments";
-  if (!settings.clip_planes.empty()) return "clip planes cut rays";
-  if (scene.surface_triangle_count() > 0 || !settings.depth_limit.empty())
-    return "rays end at what is opaque";
-  if (settings.interval_way == IntervalWay::table) return "the interval tables are asked for";
-  if (settings.scalar_twin) return "the scalar twin is asked for";
-  const auto& channels = settings.channels;
-  if (extreme && !channels.empty()) return "channels are of what rays meet on their way";
-  for (const char* name : {"optical_depth", "cell_count"})
-    if (std::count(channels.begin(), channels.end(), name) > 0) return "a channel needs whole rays";
-  if (by_packets && !tets && scene.cell_count() < kFewestBesidePackets)
-    return "packets are faster through so few cells";
-  if (extreme && !tets && has_many_crooked_cells(scene))
-    return "many cells are collapsed or inverted, and every ray would have to look at them";
-  return std::nullopt;
-}
-
-namespace {
-
 template <class Walkable>
 std::unique_ptr<TileMaker> tiles_of(Frame& frame, const Walkable& walkable,
                                     const Integrator& integrator) {
@@ -230,10 +220,19 @@ std::unique_ptr<TileMaker> tiles_of(Frame& frame, const Walkable& walkable,
     return std::make_unique<ExtremeTiles<Walkable, MaximumPixel>>(frame, walkable);
   if (frame.settings().mode == Mode::minimum)
     return std::make_unique<ExtremeTiles<Walkable, MinimumPixel>>(frame, walkable);
+  auto with = [&](auto pixels) -> std::unique_ptr<TileMaker> {
+    return std::make_unique<SearchedTiles<Walkable, decltype(pixels)>>(frame, walkable,
+                                                                       std::move(pixels));
+  };
+  const bool classified = is_classified(frame.scene(), frame.settings());
+  if (!classified && frame.settings().mode == Mode::depth)
+    return with(ModeTiles<Walkable, FirstPixel>(
+        frame, walkable, FirstPixel{frame.optical_depth(), frame.tolerance()}));
   return std::visit(
-      [&](const auto& chosen) -> std::unique_ptr<TileMaker> {
+      [&](const auto& chosen) {
         using Chosen = std::decay_t<decltype(chosen)>;
-        return std::make_unique<SearchedTiles<Walkable, Chosen>>(frame, walkable, chosen);
+        return classified ? with(ClassifiedTiles<Walkable, Chosen>(frame, walkable, chosen))
+                          : with(VolumeTiles<Walkable, Chosen>(frame, walkable, chosen));
       },
       integrator);
 }
@@ -245,7 +244,7 @@ std::unique_ptr<TileMaker> searched_tiles(Frame& frame, const Integrator& integr
       [&](const auto& walkable) -> std::unique_ptr<TileMaker> {
         using Form = std::decay_t<decltype(*walkable)>;
         if constexpr (std::is_same_v<Form, Walkable<RectilinearWalker>>)
-          return nullptr;  // no_search()
+          return nullptr;  // cannot_search()
         else
           return tiles_of(frame, *walkable, integrator);
       },

@@ -41,15 +41,11 @@ std::unique_ptr<TileMaker> packet_tiles(Frame& frame, const Integrator& integrat
 /// Scenes with intervals or isosurfaces, in the modes volume and depth.
 std::unique_ptr<TileMaker> classified_tiles(Frame& frame, const Integrator& integrator);
 
-/// Scenes with isosurfaces alone, and the modes maximum and minimum, through a hierarchy of cells;
-/// rays that it declines are walked. The same picture as by classified_tiles() or mode_tiles(), bit
-/// for bit. Requires !no_search(...). Makes the hierarchy where the scene has none yet.
+/// The modes volume, depth, maximum and minimum through a hierarchy of cells, past those in which
+/// nothing is to be seen; rays that it declines are walked. The same picture as by volume_tiles(),
+/// classified_tiles() or mode_tiles(), bit for bit. Requires !cannot_search(...). Makes the
+/// hierarchy where the scene has none yet.
 std::unique_ptr<TileMaker> searched_tiles(Frame& frame, const Integrator& integrator);
-
-/// Why a picture is not made through a hierarchy of cells; nothing where it is. Where packets would
-/// do (`by_packets`), small meshes of other cells than tetrahedra are left to them.
-std::optional<std::string> no_search(const Scene& scene, const RenderSettings& settings,
-                                     bool by_packets);
 
 /// Scenes with intervals or isosurfaces in the mode volume, by IntervalWay::table.
 std::unique_ptr<TileMaker> table_tiles(Frame& frame);

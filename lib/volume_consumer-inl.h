@@ -26,6 +26,7 @@ namespace HWY_NAMESPACE {
 template <class Pieces>
 struct VolumeConsumer {
   static constexpr bool kMeasure = true;
+  static constexpr bool kByParts = true;
 
   const PieceTable& table;
   const Pieces& pieces;
@@ -52,23 +53,25 @@ struct VolumeConsumer {
   }
 
   HWY_INLINE MF visit(std::size_t packet, MF active, VF length, VF s_in, VF s_out, VU cells) {
-    const DF d;
-    const DU du;
-    Lanes& mine = lanes[packet];
-    if (cell_values != nullptr) {
-      s_in = hn::GatherIndex(d, cell_values, hn::BitCast(hn::RebindToSigned<DU>(), cells));
-      s_out = s_in;
-    }
-    optics::Sums sums{hn::Load(d, mine.r), hn::Load(d, mine.g), hn::Load(d, mine.b),
-                      hn::Load(d, mine.transmittance)};
-    VU piece = hn::Load(du, mine.piece);
-    optics::Composite(pieces, active, s_in, s_out, length, piece, sums);
-    hn::Store(sums.r, d, mine.r);
-    hn::Store(sums.g, d, mine.g);
-    hn::Store(sums.b, d, mine.b);
-    hn::Store(sums.transmittance, d, mine.transmittance);
-    hn::Store(piece, du, mine.piece);
-    return hn::Le(sums.transmittance, hn::Set(d, enough));
+    take_cell_values(cells, s_in, s_out);
+    OpenLanes mine(lanes[packet]);
+    optics::Composite(pieces, s_in, s_out, hn::IfThenElseZero(active, length), mine.piece,
+                      mine.sums);
+    return mine.close(enough);
+  }
+
+  // Composites no further than a knot of the transfer function. (In a segment a knot is rare, but
+  // among sixteen segments it is not, and to go on to the next piece costs the same for one lane.)
+  HWY_INLINE VisitedPart visit_part(std::size_t packet, MF active, VF length, VF s_in, VF s_out,
+                                    VU cells) {
+    take_cell_values(cells, s_in, s_out);
+    OpenLanes mine(lanes[packet]);
+    optics::Course course(s_in, s_out, hn::IfThenElseZero(active, length));
+    const optics::Record range = course.find_piece(pieces, mine.piece);
+    optics::CompositePart(pieces, range, course, mine.piece, mine.sums);
+    const MF enough_seen = mine.close(enough);
+    return {enough_seen, hn::AndNot(enough_seen, course.active), course.turned(course.in),
+            course.length};
   }
 
   void end(std::size_t packet, std::size_t lane, const PacketStart& start, float z,
@@ -80,6 +83,36 @@ struct VolumeConsumer {
              transmittance,          color.cells + cells, z,
              transmittance <= enough};
   }
+
+ private:
+  HWY_INLINE void take_cell_values(VU cells, VF& s_in, VF& s_out) const {
+    if (cell_values == nullptr) return;
+    s_in = hn::GatherIndex(DF(), cell_values, hn::BitCast(hn::RebindToSigned<DU>(), cells));
+    s_out = s_in;
+  }
+
+  // A packet's lanes in registers.
+  struct OpenLanes {
+    Lanes& lanes;
+    optics::Sums sums;
+    VU piece;
+
+    HWY_INLINE explicit OpenLanes(Lanes& from)
+        : lanes(from),
+          sums{hn::Load(DF(), from.r), hn::Load(DF(), from.g), hn::Load(DF(), from.b),
+               hn::Load(DF(), from.transmittance)},
+          piece(hn::Load(DU(), from.piece)) {}
+    // Returns those that have seen enough.
+    HWY_INLINE MF close(float enough) const {
+      const DF d;
+      hn::Store(sums.r, d, lanes.r);
+      hn::Store(sums.g, d, lanes.g);
+      hn::Store(sums.b, d, lanes.b);
+      hn::Store(sums.transmittance, d, lanes.transmittance);
+      hn::Store(piece, DU(), lanes.piece);
+      return hn::Le(sums.transmittance, hn::Set(d, enough));
+    }
+  };
 };
 
 }  // namespace HWY_NAMESPACE

@@ -18,12 +18,24 @@ class VolumeTiles : public TileMaker {
   }
 
   void make_pixel(const PixelPlace& place, Counts& counts) {
-    VolumePixel<Integrator> pixel{
-        integrator_, static_cast<float>(frame_.settings().early_termination), frame_.tolerance()};
-    counts.add(follow_ray(frame_, walkable_, place, pixel));
+    make_pixel(place, counts, [&](auto& visit) {
+      return trace_clipped(frame_, walkable_, frame_.ray(place), visit);
+    });
+  }
+
+  /// Of the segments that follow_segments() is given.
+  template <class Follow>
+  void make_pixel(const PixelPlace& place, Counts& counts, const Follow& follow) {
+    VolumePixel<Integrator> pixel = fresh();
+    counts.add(follow_segments(frame_, walkable_, place, pixel, follow));
     float* rgba = frame_.rgba(place);
     for (std::size_t c = 0; c < 3; ++c) rgba[c] = static_cast<float>(pixel.compositor.rgb[c]);
     rgba[3] = static_cast<float>(pixel.compositor.alpha());
+  }
+
+  VolumePixel<Integrator> fresh() const {
+    return {integrator_, static_cast<float>(frame_.settings().early_termination),
+            frame_.tolerance()};
   }
 
  private:

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <functional>
 
 #include "plume/mesh/explicit_cells.h"
 #include "plume/mesh/face_matching.h"
@@ -48,55 +49,34 @@ bool is_planar_quad(const WalkablePoint& a, const WalkablePoint& b, const Walkab
   return std::abs(volume) <= kPlanar * std::hypot(normal[0], normal[1], normal[2]);
 }
 
-void find_planar_faces(WalkableGrid& grid) {
+bool has_planar_faces(const WalkableGrid& grid) {
   const std::array<std::uint32_t, 3>& n = grid.dimensions;
   const std::array<std::uint32_t, 3> step{1, n[0], n[0] * n[1]};
-  constexpr std::size_t kBlock = 64;  // points, whose bits fill three words
-  std::vector<std::uint64_t> bits(3 * ((grid.points.size() + kBlock - 1) / kBlock), 0);
-  struct Count {
-    std::uint64_t planar = 0, all = 0;
-  };
-  auto block_of = [&](std::size_t block, Count& count) {
-    const std::size_t end = std::min((block + 1) * kBlock, grid.points.size());
-    for (std::size_t p = block * kBlock; p < end; ++p) {
-      const std::array<std::size_t, 3> index{p % n[0], p / n[0] % n[1], p / n[0] / n[1]};
-      for (std::size_t axis = 0; axis < 3; ++axis) {
-        const std::size_t b = (axis + 1) % 3, c = (axis + 2) % 3;
-        if (index[b] + 1 == n[b] || index[c] + 1 == n[c]) continue;
-        ++count.all;
-        const WalkablePoint* const first = &grid.points[p];
-        if (!is_planar_quad(first[0], first[step[b]], first[step[b] + step[c]], first[step[c]]))
-          continue;
-        ++count.planar;
-        const std::size_t bit = 3 * p + axis;
-        bits[bit / 64] |= std::uint64_t{1} << bit % 64;
-      }
+  auto is_planar = [&](std::size_t p) {  // the faces whose lowest corner that is
+    const std::array<std::size_t, 3> index{p % n[0], p / n[0] % n[1], p / n[0] / n[1]};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t b = (axis + 1) % 3, c = (axis + 2) % 3;
+      if (index[b] + 1 == n[b] || index[c] + 1 == n[c]) continue;
+      const WalkablePoint* const first = &grid.points[p];
+      if (!is_planar_quad(first[0], first[step[b]], first[step[b] + step[c]], first[step[c]]))
+        return false;
     }
+    return true;
   };
-  const Count total = tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, bits.size() / 3, 64), Count{},
-      [&](const auto& range, Count count) {
-        for (std::size_t block = range.begin(); block != range.end(); ++block)
-          block_of(block, count);
-        return count;
+  return tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, grid.points.size()), true,
+      [&](const auto& range, bool planar) {
+        for (std::size_t p = range.begin(); planar && p != range.end(); ++p) planar = is_planar(p);
+        return planar;
       },
-      [](Count a, const Count& b) {
-        return Count{a.planar + b.planar, a.all + b.all};
-      });
-  if (total.planar == total.all) {
-    grid.planar_faces = PlanarFaces::all;
-  } else if (2 * total.planar >= total.all) {
-    grid.planar_faces = PlanarFaces::some;
-    grid.planar_bits = std::move(bits);
-  }
+      std::logical_and<>());
 }
 
 }  // namespace
 
 std::size_t WalkableGrid::bytes() const {
   return points.size() * sizeof(WalkablePoint) + cell_values.size() * sizeof(float) +
-         hidden.size() / 8 + planar_bits.size() * sizeof(std::uint64_t) +
-         boundary.size() * sizeof(BoundaryFace);
+         hidden.size() / 8 + boundary.size() * sizeof(BoundaryFace);
 }
 
 std::uint32_t WalkableGrid::neighbor(std::uint32_t cell, std::uint32_t face) const {
@@ -133,7 +113,7 @@ WalkableGrid make_walkable_grid(const Mesh& mesh, const ScalarField& scalar, con
         });
   });
   if (!on_points) grid.cell_values = scalar.values;
-  find_planar_faces(grid);
+  grid.planar_faces = has_planar_faces(grid);
 
   Finding hidden{"hidden cells", 0, {}};
   const auto cells = static_cast<std::uint32_t>(grid.cell_count());

@@ -13,11 +13,7 @@
 
 namespace plume {
 
-/// How many of a mesh's faces are planar.
-enum class PlanarFaces : std::uint8_t { none, some, all };
-
-/// 16 bytes a point and nothing a cell (one bit where cells are hidden, three a point where some
-/// faces are planar and some are not). Cell (i, j, k) is
+/// 16 bytes a point and nothing a cell (one bit where cells are hidden). Cell (i, j, k) is
 /// i + ci * (j + cj * k) with ci = dimensions[0] - 1 and so on, as in the user's mesh.
 struct WalkableGrid {
   LocalFrame frame;
@@ -29,12 +25,9 @@ struct WalkableGrid {
   std::vector<bool> hidden;
   /// The whole grid's handedness: i, j, k form a left-handed system.
   bool left_handed = false;
-  /// A face is planar where its corners are within kPlanar / 2 of a plane. `none` also where fewer
-  /// than half of the faces are: they are then taken for twisted, which costs time, not precision.
-  PlanarFaces planar_faces = PlanarFaces::none;
-  /// Where `some` are, three bits a point (bit 3 * point + axis): whether the face across that axis
-  /// whose lowest corner is that point is planar. Else empty.
-  std::vector<std::uint64_t> planar_bits;
+  /// Whether all faces are planar: their corners are within kPlanar / 2 of a plane. Where some are
+  /// not, all are taken for twisted, which costs time, not precision.
+  bool planar_faces = false;
   /// Every face without a visible cell behind it. Faces are numbered -i, +i, -j, +j, -k, +k.
   std::vector<BoundaryFace> boundary;
   std::vector<Finding> findings;
@@ -53,12 +46,6 @@ struct WalkableGrid {
   std::uint32_t first_point(std::uint32_t cell) const {
     const auto [i, j, k] = cell_index(cell);
     return i + dimensions[0] * (j + dimensions[1] * k);
-  }
-  /// Whether the face across `axis` whose lowest corner is `point` is planar.
-  bool is_planar(std::uint32_t point, std::uint32_t axis) const {
-    if (planar_faces != PlanarFaces::some) return planar_faces == PlanarFaces::all;
-    const std::size_t bit = 3 * static_cast<std::size_t>(point) + axis;
-    return (planar_bits[bit / 64] >> bit % 64 & 1) != 0;
   }
   /// The visible cell behind a face, or kNone.
   std::uint32_t neighbor(std::uint32_t cell, std::uint32_t face) const;

@@ -160,8 +160,9 @@ HWY_INLINE void CompositeClassified(const Table& pieces, MF active, VF s_in, VF 
     const MF seen = hn::Or(surface, hn::And(active, hn::Gt(mean, zero)));
     if (!hn::AllFalse(d, seen)) {
       const VF difference = hn::Mul(hn::Sub(back, front), hn::Mul(half, part));
-      composite(seen, hn::IfThenElse(surface, extinction, Absorbed(mean)), Chi(mean, difference),
-                from_low, along);
+      const bool any_farther = !hn::AllFalse(d, hn::Gt(mean, hn::Set(d, kNear)));
+      const auto [taken, chi] = Absorb(mean, difference, any_farther);
+      composite(seen, hn::IfThenElse(surface, extinction, taken), chi, from_low, along);
     }
 
     active = hn::AndNot(last, active);

@@ -57,6 +57,7 @@ add_executable(plume_frame_bench
   bench/frame_scenes.cpp
   bench/hexahedra_frames.cpp
   bench/empty_space_frames.cpp
+  bench/empty_cells_frames.cpp
   bench/hierarchy_frames.cpp
   bench/interval_frames.cpp
   bench/mode_frames.cpp

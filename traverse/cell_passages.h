@@ -20,15 +20,13 @@ namespace plume {
 /// Calls visit(const CellCrossing&) for the crossings of a face of a cell, decided and measured by
 /// GridWalker's operations: the same bits. `corner` are the cell's, 0 to 7, where they are asked.
 template <class CornerAt, class Visit>
-void for_each_crossing_of(const WalkableGrid& mesh, int sign, std::uint32_t first_point,
-                          std::uint32_t face, const CornerAt& corner, const Visit& visit) {
+void for_each_crossing_of(const WalkableGrid& mesh, int sign, std::uint32_t face,
+                          const CornerAt& corner, const Visit& visit) {
   const auto& loop = kCornerLoop[face];
   const ShearedPoint &a = corner(loop[0]), &b = corner(loop[1]);
   const ShearedPoint &c = corner(loop[2]), &d = corner(loop[3]);
   const Quad quad{a, b, c, d};
-  const std::uint32_t axis = face / 2, ni = mesh.dimensions[0];
-  const std::uint32_t step[3] = {1, ni, ni * mesh.dimensions[1]};
-  const bool planar = mesh.is_planar(first_point + (face % 2 == 1 ? step[axis] : 0), axis);
+  const bool planar = mesh.planar_faces;
   const int outwards = (face % 2 == 1) != mesh.left_handed ? sign : -sign;
   const QuadCrossings of_face = PlanarOrPatchFaces::crossings(quad, winding(quad), planar);
   for (std::uint32_t rank = 0; rank < 2; ++rank)
@@ -91,7 +89,7 @@ class CellPassages {
       for (std::uint32_t face = 0; face < 6; ++face)
         if (winding.may_be_crossed(face))
           for_each_crossing_of(
-              mesh_, frame.sign(), first, face,
+              mesh_, frame.sign(), face,
               [&](std::size_t c) -> const ShearedPoint& { return corner[c]; }, add);
     } else {
       for (const std::uint32_t face : mesh_.faces_of(cell))
@@ -116,34 +114,14 @@ class CellPassages {
       for (const std::uint32_t c : kCornerLoop[face.face])
         corner[c] = frame(mesh_.points[first + (c & 1) + (c >> 1 & 1) * ni + (c >> 2) * nij]);
       for_each_crossing_of(
-          mesh_, frame.sign(), first, face.face,
+          mesh_, frame.sign(), face.face,
           [&](std::size_t c) -> const ShearedPoint& { return corner[c]; }, visit);
     } else {
       for_each_crossing_of(mesh_, frame, face.cell, face.face, points_, visit);
     }
   }
 
-  /// Whether the ray, walked back from a way into a cell, has nowhere a place that is not before
-  /// it, until it has gone back by more than `distance` in z or has reached the boundary.
-  /// `reversed` is the frame of the ray that runs the other way: the same bits but for its sign.
-  bool comes_from_before(std::uint32_t cell, const CellCrossing& in, const ShearedFrame& reversed,
-                         double distance) const {
-    constexpr int kMost = 256;
-    const BoundaryFace behind = other_side(cell, in.face);
-    if (behind.cell == kNone) return true;
-    Walker back(mesh_, reversed);
-    back.enter(behind, in.rank);
-    for (int step = 0; step < kMost; ++step) {
-      const auto place = back.leave();
-      if (!place) return false;
-      const double forward = (in.place.z - place->z) * reversed.sign();
-      if (forward > 0) return false;
-      if (forward < -distance || !back.advance()) return true;
-    }
-    return false;
-  }
-
- private:
+  /// A face of a cell as the cell behind it knows it; kNone at the boundary.
   BoundaryFace other_side(std::uint32_t cell, std::uint32_t face) const {
     if constexpr (std::is_same_v<Mesh, WalkableGrid>) {
       return {mesh_.neighbor(cell, face), face ^ 1};
@@ -153,6 +131,27 @@ class CellPassages {
     }
   }
 
+  /// Whether the ray, walked back from a way into a cell at `z_in`, has nowhere a place that is not
+  /// before it, until it has gone back by more than `distance` in z or has reached the boundary.
+  /// `reversed` is the frame of the ray that runs the other way: the same bits but for its sign.
+  bool comes_from_before(std::uint32_t cell, std::uint32_t face, std::uint32_t rank, double z_in,
+                         const ShearedFrame& reversed, double distance) const {
+    constexpr int kMost = 256;
+    const BoundaryFace behind = other_side(cell, face);
+    if (behind.cell == kNone) return true;
+    Walker back(mesh_, reversed);
+    back.enter(behind, rank);
+    for (int step = 0; step < kMost; ++step) {
+      const auto place = back.leave();
+      if (!place) return false;
+      const double forward = (z_in - place->z) * reversed.sign();
+      if (forward > 0) return false;
+      if (forward < -distance || !back.advance()) return true;
+    }
+    return false;
+  }
+
+ private:
   const Mesh& mesh_;
   std::vector<CellCrossing> crossings_;
   std::vector<Passage> passages_;

@@ -31,7 +31,7 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// Goes through the hierarchy and hands to the target (see isosurface_target.h) the cells that its
+// Goes through the hierarchy and hands to the target (see segment_target.h) the cells that its
 // rays go through and that matter, more or less front to back, and all thin ones.
 template <class Target>
 class CellSearch : public SearchOrder<Target> {
@@ -51,7 +51,6 @@ class CellSearch : public SearchOrder<Target> {
   void AskFor(std::uint32_t leaf) const { leaves_.ask_for(leaf); }
 
   void Leaf(std::uint32_t number, bool matters) {
-    const HWY_CAPPED(float, 16) d;
     const std::uint32_t first = number * static_cast<std::uint32_t>(kLeafCells);
     const std::uint32_t size =
         std::min(hierarchy_.cell_count - first, static_cast<std::uint32_t>(kLeafCells));
@@ -60,37 +59,19 @@ class CellSearch : public SearchOrder<Target> {
     const unsigned wanted = (look_inside ? thin | MayMatter(number) : thin) & ((1u << size) - 1);
     if (wanted == 0) return;
     const ReadLeaf& leaf = leaves_.read(number, wanted);
-    const std::size_t z = hull_.axis();
-    HWY_ALIGN float keys[kLeafCells];
-    for (std::size_t from = 0; from < kLeafCells; from += hn::Lanes(d))
-      hn::Store(this->Keys(d, leaf.low[z] + from, leaf.high[z] + from, leaf.least + from,
-                           leaf.greatest + from),
-                d, keys + from);
-    for (std::size_t group = 0; group * ShearedLanes::Lanes() < bundle_.size(); ++group) {
-      const std::size_t first_ray = group * ShearedLanes::Lanes();
-      const ShearedLanes::D rays_of;
-      const float* const limits = target_.limits() + first_ray;
-      const float limit = hn::GetLane(hn::MaxOfLanes(rays_of, hn::Load(rays_of, limits)));
-      unsigned cells = 0;
-      for (std::size_t from = 0; from < kLeafCells; from += hn::Lanes(d))
-        cells |= BitsOf(d, hn::And(hulls_[group].Meets(d, leaf.low, leaf.high, from),
-                                   hn::Lt(hn::Load(d, keys + from), hn::Set(d, limit))))
-                 << from;
-      cells &= wanted;
-      if (cells == 0) continue;
-      const ShearedLanes lanes(bundle_, first_ray);
-      for (; cells != 0; cells &= cells - 1) {
-        const auto place = static_cast<std::uint32_t>(__builtin_ctz(cells));
-        const auto near = hn::Lt(hn::Set(rays_of, keys[place]), hn::Load(rays_of, limits));
-        const bool all = (thin >> place & 1) != 0 || Target::kKey != CellKey::place;
-        unsigned rays = BitsOf(
-            rays_of, hn::And(near, GoThrough(lanes, leaf.cells, place, all, target_.windows())));
-        if (rays == 0) continue;
-        const TetCell cell = CellOf(leaf, first + place, place);
-        for (; rays != 0; rays &= rays - 1)
-          target_.go_through(first_ray + static_cast<std::size_t>(__builtin_ctz(rays)), cell);
-      }
-    }
+    this->ForEachNear(
+        leaf, wanted,
+        [&](std::uint32_t place, std::size_t first_ray, const ShearedLanes& lanes,
+            ShearedLanes::M near) HWY_ATTR {
+          const bool all = (thin >> place & 1) != 0 || Target::kKey != CellKey::place;
+          unsigned rays =
+              BitsOf(ShearedLanes::D(),
+                     hn::And(near, GoThrough(lanes, leaf.cells, place, all, target_.windows())));
+          if (rays == 0) return;
+          const TetCell cell = CellOf(leaf, first + place, place);
+          for (; rays != 0; rays &= rays - 1)
+            target_.go_through(first_ray + static_cast<std::size_t>(__builtin_ctz(rays)), cell);
+        });
   }
 
  private:
@@ -125,7 +106,6 @@ class CellSearch : public SearchOrder<Target> {
 
   using SearchOrder<Target>::bundle_;
   using SearchOrder<Target>::hull_;
-  using SearchOrder<Target>::hulls_;
   using SearchOrder<Target>::pass_;
   using SearchOrder<Target>::target_;
 

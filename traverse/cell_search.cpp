@@ -96,15 +96,15 @@ void find_extreme(Cache& leaves, RayBundle& bundle, std::span<SearchedRay> found
 }  // namespace
 
 template <class Cache>
-void find_isosurfaces(Cache& leaves, std::span<const SoughtIsovalue> isovalues, double connected,
-                      RayBundle& bundle, std::span<SearchedRay> found) {
+void find_segments(Cache& leaves, const SoughtSegments& sought, RayBundle& bundle,
+                   std::span<SearchedRay> found) {
   if (bundle.size() == 0) return;
   bundle.fill();
   const auto cells = cells_of(leaves);
-  IsosurfaceTarget<std::decay_t<decltype(cells)>> target(cells, isovalues, bundle, found);
+  SegmentTarget<std::decay_t<decltype(cells)>> target(cells, sought, bundle, found);
   search(leaves, bundle, &target);
   // World length of what rounding may make of a place.
-  target.finish({connected, kSearchRounding / leaves.mesh().frame.scale});
+  target.finish({sought.connected, kSearchRounding / leaves.mesh().frame.scale});
 }
 
 template <class Cache>
@@ -119,12 +119,11 @@ void find_least(Cache& leaves, RayBundle& bundle, std::span<SearchedRay> found,
   find_extreme<false>(leaves, bundle, found, values);
 }
 
-template void find_isosurfaces(LeafCache&, std::span<const SoughtIsovalue>, double, RayBundle&,
-                               std::span<SearchedRay>);
-template void find_isosurfaces(ClusterCache<GridWalker>&, std::span<const SoughtIsovalue>, double,
-                               RayBundle&, std::span<SearchedRay>);
-template void find_isosurfaces(ClusterCache<CellWalker>&, std::span<const SoughtIsovalue>, double,
-                               RayBundle&, std::span<SearchedRay>);
+template void find_segments(LeafCache&, const SoughtSegments&, RayBundle&, std::span<SearchedRay>);
+template void find_segments(ClusterCache<GridWalker>&, const SoughtSegments&, RayBundle&,
+                            std::span<SearchedRay>);
+template void find_segments(ClusterCache<CellWalker>&, const SoughtSegments&, RayBundle&,
+                            std::span<SearchedRay>);
 template void find_greatest(LeafCache&, RayBundle&, std::span<SearchedRay>, std::span<float>);
 template void find_greatest(ClusterCache<GridWalker>&, RayBundle&, std::span<SearchedRay>,
                             std::span<float>);

@@ -54,43 +54,25 @@ class ClusterSearch : public SearchOrder<Target> {
     const bool look_inside = matters && pass_ != SearchPass::special;
     if (!look_inside && crooked == 0) return;
     const ReadCluster& leaf = leaves_.read(number);
-    const std::size_t z = hull_.axis();
-    HWY_ALIGN float keys[kClusterSize];
-    std::uint32_t wanted = 0;
-    for (std::size_t from = 0; from < kClusterSize; from += hn::Lanes(d)) {
-      hn::Store(this->Keys(d, leaf.low[z] + from, leaf.high[z] + from, leaf.least + from,
-                           leaf.greatest + from),
-                d, keys + from);
-      if (look_inside)
-        wanted |= BitsOf(d, this->Matters(d, leaf.least + from, leaf.greatest + from)) << from;
-    }
-    wanted = (wanted | crooked) & ((1u << leaf.size) - 1);
+    std::uint32_t wanted = crooked;
+    for (std::size_t from = 0; look_inside && from < kClusterSize; from += hn::Lanes(d))
+      wanted |= BitsOf(d, this->Matters(d, leaf.least + from, leaf.greatest + from)) << from;
+    wanted &= (1u << leaf.size) - 1;
     if (wanted == 0) return;
-    for (std::size_t group = 0; group * ShearedLanes::Lanes() < bundle_.size(); ++group) {
-      const std::size_t first_ray = group * ShearedLanes::Lanes();
-      const float* const limits = target_.limits() + first_ray;
-      const float limit = hn::GetLane(hn::MaxOfLanes(rays_of, hn::Load(rays_of, limits)));
-      std::uint32_t cells = 0;
-      for (std::size_t from = 0; from < kClusterSize; from += hn::Lanes(d))
-        cells |= BitsOf(d, hn::And(hulls_[group].Meets(d, leaf.low, leaf.high, from),
-                                   hn::Lt(hn::Load(d, keys + from), hn::Set(d, limit))))
-                 << from;
-      cells &= wanted;
-      if (cells == 0) continue;
-      const ShearedLanes lanes(bundle_, first_ray);
-      for (; cells != 0; cells &= cells - 1) {
-        const auto place = static_cast<std::uint32_t>(__builtin_ctz(cells));
-        const auto near = hn::Lt(hn::Set(rays_of, keys[place]), hn::Load(rays_of, limits));
-        const bool all = (crooked >> place & 1) != 0;
-        std::uint32_t rays =
-            BitsOf(rays_of, hn::And(near, (leaf.has_corners >> place & 1) != 0
-                                              ? MayGoThrough(lanes, leaf, place, all, limits)
-                                              : lanes.Meets(leaf.low, leaf.high, place)));
-        for (; rays != 0; rays &= rays - 1)
-          target_.go_through(first_ray + static_cast<std::size_t>(__builtin_ctz(rays)),
-                             leaf.number[place]);
-      }
-    }
+    this->ForEachNear(
+        leaf, wanted,
+        [&](std::uint32_t place, std::size_t first_ray, const ShearedLanes& lanes,
+            ShearedLanes::M near) HWY_ATTR {
+          const bool all = (crooked >> place & 1) != 0;
+          const float* const limits = target_.limits() + first_ray;
+          std::uint32_t rays =
+              BitsOf(rays_of, hn::And(near, (leaf.has_corners >> place & 1) != 0
+                                                ? MayGoThrough(lanes, leaf, place, all, limits)
+                                                : lanes.Meets(leaf.low, leaf.high, place)));
+          for (; rays != 0; rays &= rays - 1)
+            target_.go_through(first_ray + static_cast<std::size_t>(__builtin_ctz(rays)),
+                               leaf.number[place]);
+        });
   }
 
  private:
@@ -133,7 +115,6 @@ class ClusterSearch : public SearchOrder<Target> {
 
   using SearchOrder<Target>::bundle_;
   using SearchOrder<Target>::hull_;
-  using SearchOrder<Target>::hulls_;
   using SearchOrder<Target>::pass_;
   using SearchOrder<Target>::target_;
 

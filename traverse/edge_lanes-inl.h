@@ -12,11 +12,12 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 
 #include "hwy/highway.h"
 #include "plume/mesh/walkable_cells.h"
+#include "plume/traverse/edge_primitives-inl.h"
+#include "plume/traverse/fan_lanes-inl.h"
 #include "plume/traverse/lane_loads-inl.h"
 #include "plume/traverse/loop_crossings.h"
 #include "plume/traverse/packet_walk-inl.h"
@@ -24,141 +25,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
-
-#if HWY_TARGET == HWY_SCALAR
-template <class D>
-HWY_INLINE std::uint32_t XorOfLanes(D /*d*/, hn::Vec<D> v) {
-  return hn::GetLane(v);
-}
-#else
-template <class D>
-HWY_INLINE std::uint32_t XorOfLanes(D /*d*/, hn::Vec<D> v) {
-  if constexpr (hn::MaxLanes(D()) > 4) {
-    const hn::Half<D> half;
-    return XorOfLanes(half, hn::Xor(hn::LowerHalf(half, v), hn::UpperHalf(half, v)));
-  } else {
-    v = hn::Xor(v, hn::Shuffle1032(v));
-    return hn::GetLane(hn::Xor(v, hn::Shuffle2301(v)));
-  }
-}
-#endif
-
-// A bit for each lane, moved up to where the lanes are.
-HWY_INLINE std::uint32_t BitsFrom(MF mask, std::size_t at) {
-#if HWY_TARGET <= HWY_AVX3
-  return static_cast<std::uint32_t>(mask.raw) << at;
-#else
-  return static_cast<std::uint32_t>(BitsOf(mask)) << at;
-#endif
-}
-
-// A ray in a cell.
-struct EdgeRay {
-  // x, y, 0, 0 of what ShearedFrame subtracts, so that a point's z and scalar stay as they are.
-  HWY_ALIGN float offset[4];
-  HWY_ALIGN float slope[4];
-  const ShearedFrame* frame;
-
-  void put(const ShearedFrame& of) {
-    const ShearedFrame::Line line = of.line();
-    offset[0] = line.offset_x;
-    offset[1] = line.offset_y;
-    slope[0] = line.slope_x;
-    slope[1] = line.slope_y;
-    offset[2] = offset[3] = slope[2] = slope[3] = 0;
-    frame = &of;
-  }
-};
-
-// The sheared corners of a cell, to be looked up by their numbers.
-struct CornerTable {
-  HWY_ALIGN float x[kMostEdgeCellCorners];
-  HWY_ALIGN float y[kMostEdgeCellCorners];
-
-  // Those of several numbers, of which no more than the lowest five bits count.
-  HWY_INLINE void Get(VU numbers, VF& at_x, VF& at_y) const {
-    const DF d;
-#if HWY_TARGET <= HWY_AVX3
-    at_x = VF{_mm512_permutex2var_ps(hn::Load(d, x).raw, numbers.raw, hn::Load(d, x + 16).raw)};
-    at_y = VF{_mm512_permutex2var_ps(hn::Load(d, y).raw, numbers.raw, hn::Load(d, y + 16).raw)};
-#else
-    const auto at = hn::BitCast(hn::RebindToSigned<DF>(), hn::And(numbers, hn::Set(DU(), 31)));
-    at_x = hn::GatherIndex(d, x, at);
-    at_y = hn::GatherIndex(d, y, at);
-#endif
-  }
-};
-
-// The floats at base + 2 * pairs[i], i below `count`, a multiple of four; something in the lanes
-// beyond. The fourth ones are left out.
-HWY_INLINE FourFloats LoadCorners(const float* HWY_RESTRICT base, const std::uint32_t* pairs,
-                                  std::size_t count) {
-#if HWY_TARGET <= HWY_AVX3
-  const std::uint32_t* const second = count > 4 ? pairs + 4 : pairs;
-  const std::uint32_t* const third = count > 8 ? pairs + 8 : pairs;
-  const std::uint32_t* const fourth = count > 12 ? pairs + 12 : pairs;
-  auto row = [&](std::size_t i) {
-    auto load = [&](const std::uint32_t* from) {
-      return _mm_loadu_ps(base + 2 * static_cast<std::size_t>(from[i]));
-    };
-    __m512 lanes = _mm512_castps128_ps512(load(pairs));
-    lanes = _mm512_mask_broadcast_f32x4(lanes, 0x00F0, load(second));
-    lanes = _mm512_mask_broadcast_f32x4(lanes, 0x0F00, load(third));
-    return VF{_mm512_mask_broadcast_f32x4(lanes, 0xF000, load(fourth))};
-  };
-  const DF d;
-  const hn::Repartition<std::uint64_t, DF> d64;
-  const VF p0 = row(0), p1 = row(1), p2 = row(2), p3 = row(3);
-  const auto ab01 = hn::BitCast(d64, hn::InterleaveLower(d, p0, p1));
-  const auto ab23 = hn::BitCast(d64, hn::InterleaveLower(d, p2, p3));
-  const auto cd01 = hn::BitCast(d64, hn::InterleaveUpper(d, p0, p1));
-  const auto cd23 = hn::BitCast(d64, hn::InterleaveUpper(d, p2, p3));
-  return {hn::BitCast(d, hn::InterleaveLower(d64, ab01, ab23)),
-          hn::BitCast(d, hn::InterleaveUpper(d64, ab01, ab23)),
-          hn::BitCast(d, hn::InterleaveLower(d64, cd01, cd23)), hn::Zero(d)};
-#else
-  const DU du;
-  HWY_ALIGN std::uint32_t used[kMaxLanes];
-  hn::Store(hn::IfThenElseZero(hn::FirstN(du, count), hn::LoadU(du, pairs)), du, used);
-  return LoadFour(base, used);
-#endif
-}
-
-// Where edges cross y = 0 on the ray's right, whichever way they go: crossing() is not 0.
-HWY_INLINE MF CrossesRight(VF ax, VF ay, VF bx, VF by) {
-  const VF zero = hn::Zero(DF());
-  const VF forth = hn::Mul(ax, by), back = hn::Mul(bx, ay);
-#if HWY_TARGET <= HWY_AVX3
-  // Each comparison takes the one before as its mask.
-  __mmask16 rises = _mm512_cmp_ps_mask(ay.raw, zero.raw, _CMP_LT_OQ);
-  __mmask16 falls = _mm512_cmp_ps_mask(by.raw, zero.raw, _CMP_LT_OQ);
-  rises = _mm512_mask_cmp_ps_mask(rises, by.raw, zero.raw, _CMP_GE_OQ);
-  falls = _mm512_mask_cmp_ps_mask(falls, ay.raw, zero.raw, _CMP_GE_OQ);
-  rises = _mm512_mask_cmp_ps_mask(rises, forth.raw, back.raw, _CMP_GT_OQ);
-  falls = _mm512_mask_cmp_ps_mask(falls, back.raw, forth.raw, _CMP_GT_OQ);
-  return MF{static_cast<__mmask16>(rises | falls)};
-#else
-  const MF a_up = hn::Ge(ay, zero), b_up = hn::Ge(by, zero);
-  return hn::Or(hn::And(hn::AndNot(a_up, b_up), hn::Gt(forth, back)),
-                hn::And(hn::AndNot(b_up, a_up), hn::Gt(back, forth)));
-#endif
-}
-
-// The two faces at an edge, a bit each.
-HWY_INLINE VU FacesOf(VU edge) {
-#if HWY_TARGET <= HWY_AVX3
-  // A rotation takes no more than the lowest five bits of a number.
-  // (With an all-true mask, as in lane_loads-inl.h.)
-  const __m512i one = _mm512_set1_epi32(1);
-  const __m512i face = hn::ShiftRight<16>(edge).raw, other = hn::ShiftRight<24>(edge).raw;
-  return hn::Xor(VU{_mm512_maskz_rolv_epi32(0xFFFF, one, face)},
-                 VU{_mm512_maskz_rolv_epi32(0xFFFF, one, other)});
-#else
-  const VU one = hn::Set(DU(), 1);
-  const VU face = hn::And(hn::ShiftRight<16>(edge), hn::Set(DU(), 31));
-  return hn::Xor(hn::Shl(one, face), hn::Shl(one, hn::ShiftRight<24>(edge)));
-#endif
-}
 
 // Where the lanes' rays go.
 struct EdgeExits {
@@ -230,8 +96,8 @@ class EdgeLanes {
           unknown |= 1u << lane;
     }
     ForEach(polygons & ~unknown, [&](std::size_t lane) HWY_ATTR {
-      if (!Fan<kMeasure>(rays[lane], mesh_.loop(exits.face[lane]), exits.rank[lane],
-                         exits.corners[lane]))
+      if (!LeaveByFan<kMeasure>(rays[lane], mesh_.loop(exits.face[lane]), exits.rank[lane],
+                                exits.corners[lane]))
         unknown |= 1u << lane;
     });
     if constexpr (kMeasure) {
@@ -415,87 +281,14 @@ class EdgeLanes {
     return beside != 0;
   }
 
-  // Of a polygon's fan the triangle that the ray crosses: its rank and its corners. False where
-  // there are several.
+  // The triangle by which the ray leaves through a polygon, and its corners. False where there are
+  // several.
   template <bool kMeasure>
-  HWY_INLINE bool Fan(const EdgeRay& ray, std::span<const std::uint32_t> loop, std::uint32_t& rank,
-                      float* corners) const {
+  HWY_INLINE bool LeaveByFan(const EdgeRay& ray, std::span<const std::uint32_t> loop,
+                             std::uint32_t& rank, float* corners) const {
     HWY_ALIGN float fan[kMostEdgeCellCorners][4];
-    const std::size_t size = loop.size();
-    for (std::size_t i = 0; i < size; ++i) Shear(ray, loop[i], fan[i]);
-    HWY_ALIGN float center[4];
-    CenterOf(fan, size, center);
-    const std::uint32_t crossed = size <= hn::MaxLanes(DF()) ? CrossedTogether(fan, size, center)
-                                                             : CrossedInTurn(fan, size, center);
-    if (HWY_UNLIKELY((crossed & (crossed - 1)) != 0)) return false;
-    rank = static_cast<std::uint32_t>(hwy::Num0BitsBelowLS1Bit_Nonzero32(crossed));
-    if constexpr (kMeasure) {
-      Copy(center, corners);
-      Copy(fan[rank == 0 ? size - 1 : rank - 1], corners + 4);
-      Copy(fan[rank], corners + 8);
-      Copy(fan[rank], corners + 12);
-    }
-    return true;
-  }
-
-  static HWY_INLINE void Copy(const float* from, float* to) { std::memcpy(to, from, 16); }
-
-  // fan_center()
-  static HWY_INLINE void CenterOf(const float (*fan)[4], std::size_t size, float* center) {
-    const float count = static_cast<float>(size);
-#if HWY_TARGET == HWY_SCALAR
-    for (std::size_t a = 0; a < 4; ++a) {
-      center[a] = 0;
-      for (std::size_t i = 0; i < size; ++i) center[a] += fan[i][a];
-      center[a] /= count;
-    }
-#else
-    const hn::FixedTag<float, 4> d4;
-    auto sum = hn::Zero(d4);
-    for (std::size_t i = 0; i < size; ++i) sum = hn::Add(sum, hn::Load(d4, fan[i]));
-    hn::Store(hn::Div(sum, hn::Set(d4, count)), d4, center);
-#endif
-  }
-
-  // The triangles of a fan that wind about the ray: three edges of which one or three cross on its
-  // right.
-  static HWY_INLINE std::uint32_t CrossedTogether(const float (*fan)[4], std::size_t size,
-                                                  const float* center) {
-    const DF d;
-    const DU du;
-    HWY_ALIGN std::uint32_t pairs[kMaxLanes];
-    const auto used = hn::FirstN(du, size);
-    const VU number = hn::IfThenElseZero(used, hn::Iota(du, 0));
-    hn::Store(hn::ShiftLeft<1>(number), du, pairs);
-    const FourFloats to = LoadFour(fan[0], pairs);
-    const VU before = hn::IfThenElse(hn::Eq(number, hn::Zero(du)),
-                                     hn::Set(du, static_cast<std::uint32_t>(size - 1)),
-                                     hn::Sub(number, hn::Set(du, 1)));
-    const auto indices = hn::IndicesFromVec(d, before);
-    const VF from_x = hn::TableLookupLanes(to.a, indices);
-    const VF from_y = hn::TableLookupLanes(to.b, indices);
-    const std::uint32_t rim = BitsFrom(CrossesRight(from_x, from_y, to.a, to.b), 0);
-    const std::uint32_t spokes =
-        BitsFrom(CrossesRight(hn::Set(d, center[0]), hn::Set(d, center[1]), to.a, to.b), 0);
-    const std::uint32_t spokes_before = spokes << 1 | (spokes >> (size - 1) & 1);
-    return (rim ^ spokes ^ spokes_before) & ((1u << size) - 1);
-  }
-
-  static HWY_NOINLINE std::uint32_t CrossedInTurn(const float (*fan)[4], std::size_t size,
-                                                  const float* center) {
-    auto point = [](const float* p) { return ShearedPoint{p[0], p[1], p[2], p[3]}; };
-    const ShearedPoint middle = point(center);
-    ShearedPoint from = point(fan[size - 1]);
-    int from_spoke = crossing(middle, from);
-    std::uint32_t crossed = 0;
-    for (std::size_t i = 0; i < size; ++i) {
-      const ShearedPoint to = point(fan[i]);
-      const int to_spoke = crossing(middle, to);
-      if (from_spoke + crossing(from, to) - to_spoke != 0) crossed |= 1u << i;
-      from = to;
-      from_spoke = to_spoke;
-    }
-    return crossed;
+    for (std::size_t i = 0; i < loop.size(); ++i) Shear(ray, loop[i], fan[i]);
+    return CrossFan<kMeasure>(fan, loop.size(), rank, corners);
   }
 
   // A face whose corners are all that far beyond a line through the ray is not crossed, and the

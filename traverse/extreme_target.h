@@ -35,16 +35,16 @@ class ExtremeTarget {
   void go_through(std::size_t index, const typename Cells::Cell& cell) {
     const ShearedFrame& frame = bundle_.frame(index);
     SearchedRay& ray = found_[index];
-    auto pass = [&](const Crossing& in, const Crossing& out, const auto& /*comes_from_before*/) {
+    auto pass = [&](const CellCrossing& in, const CellCrossing& out, const auto& /*is_clear*/) {
       ray.count();
-      if (!(frame.t(in.z) <= frame.t(out.z))) return false;
+      if (!(frame.t(in.place.z) <= frame.t(out.place.z))) return false;
       // fmax() passes over NaN.
-      const float best =
-          kGreatest ? -std::fmax(in.scalar, out.scalar) : std::fmin(in.scalar, out.scalar);
+      const float best = kGreatest ? -std::fmax(in.place.scalar, out.place.scalar)
+                                   : std::fmin(in.place.scalar, out.place.scalar);
       limits_[index] = std::fmin(limits_[index], best);
       return true;
     };
-    if (cells_.pass_through(cell, bundle_.ray(index), frame, pass)) return;
+    if (cells_.pass_through(cell, frame, pass)) return;
     ray.decline();
     limits_[index] = -kInfinity;
   }

@@ -34,9 +34,13 @@ constexpr std::size_t kMaxLanes = 16;
 
 // A bit of each lane: the sign of a float, whatever number it is.
 HWY_INLINE MF MaskOfBits(VF bits) {
+#if HWY_TARGET <= HWY_AVX3
+  return hn::MaskFromVec(bits);  // an instruction that looks at signs alone
+#else
   const DF d;
   return hn::MaskFromVec(
       hn::BitCast(d, hn::BroadcastSignBit(hn::BitCast(hn::RebindToSigned<DF>(), bits))));
+#endif
 }
 // bit ? yes : no
 HWY_INLINE VF Choose(VF bits, VF yes, VF no) {
@@ -85,20 +89,22 @@ HWY_INLINE TwoNumbers LoadTwo(const std::uint32_t* numbers) {
 
 // Rows 0 and 1 of the transposition, or 2 and 3: what lanes 0, 4, 8 and 12 (counted from `pairs`)
 // load, and what those after them do. Each load blends itself in: no instruction of its own.
+// (Functions, not lambdas: what GCC does not inline costs more than all else here.)
 struct TwoRows {
   VF first, second;
 };
+HWY_INLINE VF LoadRow(const float* HWY_RESTRICT base, std::size_t p0, std::size_t p1,
+                      std::size_t p2, std::size_t p3) {
+  __m512 lanes = _mm512_castps128_ps512(_mm_loadu_ps(base + 2 * p0));
+  lanes = _mm512_mask_broadcast_f32x4(lanes, 0x00F0, _mm_loadu_ps(base + 2 * p1));
+  lanes = _mm512_mask_broadcast_f32x4(lanes, 0x0F00, _mm_loadu_ps(base + 2 * p2));
+  return VF{_mm512_mask_broadcast_f32x4(lanes, 0xF000, _mm_loadu_ps(base + 2 * p3))};
+}
 HWY_INLINE TwoRows LoadTwoRows(const float* HWY_RESTRICT base, const std::uint32_t* pairs) {
   const TwoNumbers n0 = LoadTwo(pairs), n1 = LoadTwo(pairs + 4);
   const TwoNumbers n2 = LoadTwo(pairs + 8), n3 = LoadTwo(pairs + 12);
-  auto row = [&](std::size_t TwoNumbers::*of) {
-    auto load = [&](const TwoNumbers& n) { return _mm_loadu_ps(base + 2 * (n.*of)); };
-    __m512 lanes = _mm512_castps128_ps512(load(n0));
-    lanes = _mm512_mask_broadcast_f32x4(lanes, 0x00F0, load(n1));
-    lanes = _mm512_mask_broadcast_f32x4(lanes, 0x0F00, load(n2));
-    return VF{_mm512_mask_broadcast_f32x4(lanes, 0xF000, load(n3))};
-  };
-  return {row(&TwoNumbers::first), row(&TwoNumbers::second)};
+  return {LoadRow(base, n0.first, n1.first, n2.first, n3.first),
+          LoadRow(base, n0.second, n1.second, n2.second, n3.second)};
 }
 
 #else
@@ -130,14 +136,11 @@ HWY_INLINE TwoRows LoadTwoRows(const float* HWY_RESTRICT base, const std::uint32
 
 #endif
 
-// The four floats at base + 2 * pairs[lane] (x86 scales an index by 8 bytes at the most, so that
-// one in steps of 16 would take a shift for each lane): one 16-byte load a lane, then a
-// transposition within blocks of four lanes. On x86 that is faster than four gathers.
-HWY_INLINE FourFloats LoadFour(const float* HWY_RESTRICT base, const std::uint32_t* pairs) {
+// Rows of blocks of four floats become columns: block b of `p0` to `p3` has what lanes 4 b to
+// 4 b + 3 are given.
+HWY_INLINE FourFloats Transpose(VF p0, VF p1, VF p2, VF p3) {
   const DF d;
   const hn::Repartition<std::uint64_t, DF> d64;
-  const auto [p0, p1] = LoadTwoRows(base, pairs);
-  const auto [p2, p3] = LoadTwoRows(base, pairs + 2);
   const auto ab01 = hn::BitCast(d64, hn::InterleaveLower(d, p0, p1));
   const auto ab23 = hn::BitCast(d64, hn::InterleaveLower(d, p2, p3));
   const auto cd01 = hn::BitCast(d64, hn::InterleaveUpper(d, p0, p1));
@@ -146,6 +149,15 @@ HWY_INLINE FourFloats LoadFour(const float* HWY_RESTRICT base, const std::uint32
           hn::BitCast(d, hn::InterleaveUpper(d64, ab01, ab23)),
           hn::BitCast(d, hn::InterleaveLower(d64, cd01, cd23)),
           hn::BitCast(d, hn::InterleaveUpper(d64, cd01, cd23))};
+}
+
+// The four floats at base + 2 * pairs[lane] (x86 scales an index by 8 bytes at the most, so that
+// one in steps of 16 would take a shift for each lane): one 16-byte load a lane, then a
+// transposition within blocks of four lanes. On x86 that is faster than four gathers.
+HWY_INLINE FourFloats LoadFour(const float* HWY_RESTRICT base, const std::uint32_t* pairs) {
+  const auto [p0, p1] = LoadTwoRows(base, pairs);
+  const auto [p2, p3] = LoadTwoRows(base, pairs + 2);
+  return Transpose(p0, p1, p2, p3);
 }
 
 #endif  // HWY_TARGET == HWY_SCALAR

@@ -54,7 +54,11 @@ struct LaneState {
   HWY_ALIGN float z_in[kMaxLanes];
   HWY_ALIGN float s_in[kMaxLanes];
   HWY_ALIGN std::uint32_t active[kMaxLanes];  // all ones or zero
-  std::uint32_t begun[kMaxLanes];             // the packet's turn when the lane's ray came in
+  HWY_ALIGN std::uint32_t begun[kMaxLanes];   // the packet's turn when the lane's ray came in
+  // Of lanes that wait (see PacketWalk): bits; whether their rays have left; lengths that remain.
+  HWY_ALIGN float waits[kMaxLanes];
+  HWY_ALIGN float left[kMaxLanes];
+  HWY_ALIGN float remain[kMaxLanes];
   std::uint32_t turn = 0;
   unsigned live = 0;   // lanes that have a ray
   unsigned ended = 0;  // those whose ray has ended
@@ -69,6 +73,7 @@ struct LaneState {
     z_in[lane] = start.z;
     s_in[lane] = start.scalar;
     begun[lane] = turn;
+    waits[lane] = left[lane] = 0;
   }
 };
 
@@ -95,6 +100,13 @@ struct SegmentStart {
 struct StepResult {
   VF z, s;
   MF left;
+};
+
+// What a consumer that goes by parts of segments has done: lanes that have seen enough, and those
+// of whose segments something is left, where its scalar begins and how long it is.
+struct VisitedPart {
+  MF enough, waits;
+  VF begin, length;
 };
 
 // A step's results while scalar walkers take it over in some lanes.
@@ -178,6 +190,11 @@ HWY_INLINE unsigned BitsOf(MF mask) {
 //     end(packet, lane, start, z, cells): z is where the ray was last, cells how many it met.
 // Without Consumer::kMeasure there is no visit(), and z means nothing.
 //
+// A consumer with kByParts has visit_part() too, which may leave parts of segments for later. Where
+// steps are cheap (Steps::kMayWait) such lanes wait: their packet's next turn takes no step in
+// them, and shows the consumer what was left. So a turn takes no longer because one of its segments
+// does.
+//
 // With kPrefetch, what a packet needs next is asked for as soon as it is known: that costs as many
 // instructions as the loads themselves, and pays where they go beyond the caches.
 //
@@ -189,13 +206,16 @@ HWY_INLINE unsigned BitsOf(MF mask) {
 //     go on and on, not looked at;
 //     kInRegisters: whether packets are so small that it is worth a copy of the step for each;
 //     Cells(state, packet): the numbers of the cells that the lanes are in;
-//     Step(state, packet): to the next cell; Prefetch(state).
+//     Step(state, packet): to the next cell; Prefetch(state);
+//     kMayWait: whether there is StepUnless(waits, state, packet), by which lanes whose bit is set
+//     stay where they are, and where they crossed the last face.
 template <class Steps, std::size_t kCount, bool kPrefetch, class Consumer>
 class PacketWalk {
  public:
   using Start = typename Steps::Start;
   using State = typename Steps::State;
   using Packet = typename Steps::template Packet<Consumer::kMeasure>;
+  static constexpr bool kWaits = requires { requires Steps::kMayWait && Consumer::kByParts; };
 
   PacketWalk(const Steps& steps, Consumer& consumer, PacketFeeder& feeder)
       : steps_(steps), consumer_(consumer), feeder_(feeder) {}
@@ -237,7 +257,14 @@ class PacketWalk {
     }
     ++state.turn;
     const VU cells = steps_.Cells(state, packet);
-    const StepResult step = steps_.Step(state, packet);
+    VF waits;
+    StepResult step;
+    if constexpr (kWaits) {
+      waits = hn::Load(d, state.waits);
+      step = steps_.StepUnless(waits, state, packet);
+    } else {
+      step = steps_.Step(state, packet);
+    }
     if constexpr (kPrefetch) steps_.Prefetch(state);
     MF ended = step.left;
     if constexpr (Consumer::kMeasure) {
@@ -249,8 +276,24 @@ class PacketWalk {
       if constexpr (requires { consumer_.ends_at(place, packet.z_in); })
         consumer_.ends_at(place, packet.z_in);
       const MF active = hn::RebindMask(d, hn::Ne(hn::Load(du, state.active), hn::Zero(du)));
-      ended = hn::Or(ended, consumer_.visit(place, active, length, packet.s_in, step.s, cells));
-      packet.s_in = step.s;
+      if constexpr (kWaits) {
+        const VF left = Choose(waits, hn::Load(d, state.left), hn::VecFromMask(d, step.left));
+        const VF to_do = Choose(waits, hn::Load(d, state.remain), length);
+        const VisitedPart visited =
+            consumer_.visit_part(place, active, to_do, packet.s_in, step.s, cells);
+        packet.s_in = hn::IfThenElse(visited.waits, visited.begin, step.s);
+        const VF wait_on = hn::VecFromMask(d, visited.waits);
+        ended = hn::Or(visited.enough, MaskOfBits(hn::AndNot(wait_on, left)));
+        // A turn without a step counts no cell.
+        const VU no_step = hn::ShiftRight<31>(hn::BitCast(du, waits));
+        hn::Store(hn::Add(hn::Load(du, state.begun), no_step), du, state.begun);
+        hn::Store(left, d, state.left);
+        hn::Store(visited.length, d, state.remain);
+        hn::Store(wait_on, d, state.waits);
+      } else {
+        ended = hn::Or(ended, consumer_.visit(place, active, length, packet.s_in, step.s, cells));
+        packet.s_in = step.s;
+      }
     }
     state.ended = BitsOf(ended) & state.live;
   }

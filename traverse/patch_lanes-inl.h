@@ -20,6 +20,9 @@ HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
+HWY_INLINE VF Xor3(VF a, VF b, VF c) { return hn::Xor(a, hn::Xor(b, c)); }
+HWY_INLINE VF Or3(VF a, VF b, VF c) { return hn::Or(a, hn::Or(b, c)); }
+
 // Quadrilaterals in the lanes' sheared frames. Where nothing is measured, z and s are left alone.
 template <bool kMeasure>
 struct QuadLanes {

@@ -10,9 +10,11 @@
 #endif
 // clang-format on
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "hwy/highway.h"
 #include "plume/traverse/cell_search.h"
@@ -29,7 +31,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 // All that matters and all that is special, or one of the two.
 enum class SearchPass { all, special, inside };
 
-// What TreeSearch asks, for a target (see isosurface_target.h).
+// What TreeSearch asks, for a target (see segment_target.h).
 template <class Target>
 class SearchOrder {
  public:
@@ -64,6 +66,38 @@ class SearchOrder {
       return hn::Set(d, -std::numeric_limits<float>::infinity());
     else
       return Target::kKey == CellKey::least ? hn::Load(d, least) : hn::Neg(hn::Load(d, greatest));
+  }
+  // Of the `wanted` cells of a leaf calls visit(place, first_ray, lanes, near) for those that a
+  // vector of rays, first_ray and following, may meet, and tells those for which they may matter.
+  template <class Leaf, class Visit>
+  HWY_INLINE void ForEachNear(const Leaf& leaf, std::uint32_t wanted, const Visit& visit) const {
+    const HWY_CAPPED(float, 16) d;
+    const ShearedLanes::D rays_of;
+    constexpr std::size_t kCells = std::extent_v<decltype(leaf.least)>;
+    const std::size_t z = hull_.axis();
+    HWY_ALIGN float keys[kCells];
+    for (std::size_t from = 0; from < kCells; from += hn::Lanes(d))
+      hn::Store(
+          Keys(d, leaf.low[z] + from, leaf.high[z] + from, leaf.least + from, leaf.greatest + from),
+          d, keys + from);
+    for (std::size_t group = 0; group * ShearedLanes::Lanes() < bundle_.size(); ++group) {
+      const std::size_t first_ray = group * ShearedLanes::Lanes();
+      const float* const limits = target_.limits() + first_ray;
+      const float limit = hn::GetLane(hn::MaxOfLanes(rays_of, hn::Load(rays_of, limits)));
+      std::uint32_t cells = 0;
+      for (std::size_t from = 0; from < kCells; from += hn::Lanes(d))
+        cells |= BitsOf(d, hn::And(hulls_[group].Meets(d, leaf.low, leaf.high, from),
+                                   hn::Lt(hn::Load(d, keys + from), hn::Set(d, limit))))
+                 << from;
+      cells &= wanted;
+      if (cells == 0) continue;
+      const ShearedLanes lanes(bundle_, first_ray);
+      for (; cells != 0; cells &= cells - 1) {
+        const auto place = static_cast<std::uint32_t>(__builtin_ctz(cells));
+        visit(place, first_ray, lanes,
+              hn::Lt(hn::Set(rays_of, keys[place]), hn::Load(rays_of, limits)));
+      }
+    }
   }
   std::uint32_t Opens(std::uint32_t matters, std::uint32_t special) const {
     return pass_ == SearchPass::special  ? special

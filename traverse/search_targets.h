@@ -4,12 +4,12 @@
 #include <variant>
 
 #include "plume/traverse/extreme_target.h"
-#include "plume/traverse/isosurface_target.h"
+#include "plume/traverse/segment_target.h"
 
 namespace plume {
 
 template <class Cells>
-using SearchTarget = std::variant<IsosurfaceTarget<Cells>*, ExtremeTarget<Cells, true>*,
-                                  ExtremeTarget<Cells, false>*>;
+using SearchTarget =
+    std::variant<SegmentTarget<Cells>*, ExtremeTarget<Cells, true>*, ExtremeTarget<Cells, false>*>;
 
 }  // namespace plume

@@ -26,7 +26,7 @@ struct LaneCorners {
   HWY_ALIGN float z[kMaxLanes];
   HWY_ALIGN float s[kMaxLanes];
   HWY_ALIGN std::uint32_t id[kMaxLanes];
-  HWY_ALIGN float right[kMaxLanes];
+  HWY_ALIGN float across[kMaxLanes];
 };
 
 // A corner of the triangle by which the lanes' rays come into their cells. Where nothing is
@@ -68,11 +68,13 @@ struct Corner {
   }
 };
 
-// Where rays cross the triangle a, b, c: measure_triangle() in single precision, with products that
-// do not cancel. No bound on one crossing has been measured; sums of lengths are
-// held against the twin's in tests/traverse/tet_packets_test.cpp.
-HWY_INLINE void Measure(const Corner<true>& a, const Corner<true>& b, const Corner<true>& c,
-                        StepResult& result) {
+// Products below that are looked at again: no power of two brings them to about 1.
+constexpr float kEdgeOn = 0x1p-96f;
+
+// The same of a triangle that the ray lies in the plane of, or nearly: on its two edges that cross
+// y = 0.
+inline HWY_NOINLINE void MeasureEdgeOn(Corner<true> a, Corner<true> b, Corner<true> c,
+                                       StepResult& result) {
   const DF d;
   const VF ab = hn::Xor(a.y, b.y), ac = hn::Xor(a.y, c.y);  // on different sides of y = 0
   const VF lone_b = hn::AndNot(ac, ab), lone_c = hn::AndNot(ab, ac);
@@ -104,6 +106,37 @@ HWY_INLINE void Measure(const Corner<true>& a, const Corner<true>& b, const Corn
       hn::NegMulAdd(of_p, hn::Sub(p.z, lone.z), hn::NegMulAdd(of_q, hn::Sub(q.z, lone.z), lone.z));
   result.s =
       hn::NegMulAdd(of_p, hn::Sub(p.s, lone.s), hn::NegMulAdd(of_q, hn::Sub(q.s, lone.s), lone.s));
+}
+
+// The edges across from a triangle's corners, by the products (twice the areas) that they span with
+// the ray; their signs are the bits that say whether the edges cross y = 0 on the ray's right.
+struct Across {
+  VF a, b, c;
+};
+
+// Where rays cross the triangle a, b, c: measure_triangle() in single precision, with products that
+// do not cancel. As the triangle winds about the ray, its corners' weights are the products' sizes,
+// whatever rounding made of their signs. No bound on one crossing has been measured; sums of
+// lengths are held against the twin's in tests/traverse/packets_test.cpp.
+HWY_INLINE void Measure(const Corner<true>& a, const Corner<true>& b, const Corner<true>& c,
+                        const Across& across, StepResult& result) {
+  const DF d;
+  const VF of_b = hn::Abs(across.b), of_c = hn::Abs(across.c);
+  const VF sum = hn::Add(hn::Abs(across.a), hn::Add(of_b, of_c));
+  const VF share = hn::Div(hn::Set(d, 1.0f), sum);
+  auto place = [&](VF Corner<true>::*of) {
+    const VF of_all = hn::MulAdd(of_b, hn::Sub(b.*of, a.*of), hn::Mul(of_c, hn::Sub(c.*of, a.*of)));
+    return hn::MulAdd(of_all, share, a.*of);
+  };
+  result.z = place(&Corner<true>::z);
+  result.s = place(&Corner<true>::s);
+  const MF edge_on = hn::Lt(sum, hn::Set(d, kEdgeOn));
+  if (HWY_UNLIKELY(!hn::AllFalse(d, edge_on))) {
+    StepResult in_plane;
+    MeasureEdgeOn(a, b, c, in_plane);
+    result.z = hn::IfThenElse(edge_on, in_plane.z, result.z);
+    result.s = hn::IfThenElse(edge_on, in_plane.s, result.s);
+  }
 }
 
 }  // namespace HWY_NAMESPACE

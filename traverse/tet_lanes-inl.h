@@ -57,29 +57,38 @@ HWY_INLINE ShearedLanes::M GoThrough(const ShearedLanes& lanes, const LeafCells&
   };
   const V rounding =
       hn::Mul(hn::Mul(largest(&Corner::x), largest(&Corner::y)), hn::Set(d, 0x1p-19f));
-  for (const ScalarWindow& window : windows) {
+  struct Sides {
+    M all_above, all_below;  // scalars on the faces that the ray crosses, for certain
+  };
+  auto sides_of = [&](float value) HWY_ATTR {
     // A scalar is equal to the value where rounding to single precision makes it so.
-    float above[4], most = 0.5f * std::abs(window.from);
-    for (std::size_t i = 0; i < 4; ++i) {
-      above[i] = cells.scalar[i][cell] - window.from;
-      most = std::max(most, std::abs(above[i]));
-    }
+    float above[4];
+    for (std::size_t i = 0; i < 4; ++i) above[i] = cells.scalar[i][cell] - value;
+    const float most = std::max(0.5f * std::abs(value),
+                                std::max(std::max(std::abs(above[0]), std::abs(above[1])),
+                                         std::max(std::abs(above[2]), std::abs(above[3]))));
     const V margin = hn::Mul(rounding, hn::Set(d, most)), minus = hn::Neg(margin);
-    M all_above = hn::Not(none), all_below = all_above;
+    Sides sides{hn::Not(none), hn::Not(none)};
     // Twice a face's area times how far the scalar on it is above the value.
     auto add = [&](std::size_t face, const Edge& ab, std::size_t c, const Edge& bc, std::size_t a,
                    const Edge& ca, std::size_t b) HWY_ATTR {
       const V sum = hn::MulAdd(
           ab.area, hn::Set(d, above[c]),
           hn::MulAdd(bc.area, hn::Set(d, above[a]), hn::Mul(ca.area, hn::Set(d, above[b]))));
-      all_above = hn::And(all_above, hn::Or(hn::Not(winds[face]), hn::Gt(sum, margin)));
-      all_below = hn::And(all_below, hn::Or(hn::Not(winds[face]), hn::Lt(sum, minus)));
+      sides.all_above = hn::And(sides.all_above, hn::Or(hn::Not(winds[face]), hn::Gt(sum, margin)));
+      sides.all_below = hn::And(sides.all_below, hn::Or(hn::Not(winds[face]), hn::Lt(sum, minus)));
     };
     add(0, e12, 3, e23, 1, e13, 2);
     add(1, e02, 3, e23, 0, e03, 2);
     add(2, e01, 3, e13, 0, e03, 1);
     add(3, e01, 2, e12, 0, e02, 1);
-    through = hn::Or(through, hn::Not(hn::Or(all_above, all_below)));
+    return sides;
+  };
+  for (const ScalarWindow& window : windows) {
+    const Sides from = sides_of(window.from);
+    // Where the value is infinite, nothing is above it for certain, nor below.
+    const M above = window.below == window.from ? from.all_above : sides_of(window.below).all_above;
+    through = hn::Or(through, hn::Not(hn::Or(above, from.all_below)));
   }
   return through;
 }

@@ -63,27 +63,6 @@ class TetPassage {
     return true;
   }
 
-  /// Whether the ray, walked back from the face by which it comes in, has nowhere a place that is
-  /// not before `z_in`, the place there, until it has gone back by more than `distance` in z or has
-  /// reached the boundary.
-  bool comes_from_before(const WalkableTets& mesh, double z_in, double distance) const {
-    constexpr int kMost = 256;
-    const WalkableTets::Link& behind = mesh.cells[cell_.cell][in_];
-    if (behind.cell == kNone) return true;
-    WalkableTets::Boundary face{behind.cell, behind.apex, {}};
-    const auto ids = mesh.points_of(cell_.cell);
-    for (std::size_t i = 0; i < 3; ++i) face.loop[i] = ids[(in_ + 1 + i) % 4];
-    TetWalker back(mesh, frame_);
-    back.enter(face, 0);
-    for (int step = 0; step < kMost; ++step) {
-      const auto place = back.leave();
-      const double forward = (place->z - z_in) * frame_.sign();
-      if (forward > 0) return false;
-      if (forward < -distance || !back.advance()) return true;
-    }
-    return false;
-  }
-
  private:
   Crossing measure(std::size_t face) const {
     return measure_triangle(at_[(face + 1) % 4], at_[(face + 2) % 4], at_[(face + 3) % 4]);
@@ -95,5 +74,27 @@ class TetPassage {
   std::size_t in_ = 0, out_ = 0;
   Ways ways_ = Ways::none;
 };
+
+/// Whether the ray, walked back from the face of that rank by which it comes into a cell, has
+/// nowhere a place that is not before `z_in`, the place there, until it has gone back by more than
+/// `distance` in z or has reached the boundary.
+inline bool comes_from_before(const WalkableTets& mesh, const ShearedFrame& frame,
+                              std::uint32_t cell, std::size_t in, double z_in, double distance) {
+  constexpr int kMost = 256;
+  const WalkableTets::Link& behind = mesh.cells[cell][in];
+  if (behind.cell == kNone) return true;
+  WalkableTets::Boundary face{behind.cell, behind.apex, {}};
+  const auto ids = mesh.points_of(cell);
+  for (std::size_t i = 0; i < 3; ++i) face.loop[i] = ids[(in + 1 + i) % 4];
+  TetWalker back(mesh, frame);
+  back.enter(face, 0);
+  for (int step = 0; step < kMost; ++step) {
+    const auto place = back.leave();
+    const double forward = (place->z - z_in) * frame.sign();
+    if (forward > 0) return false;
+    if (forward < -distance || !back.advance()) return true;
+  }
+  return false;
+}
 
 }  // namespace plume

@@ -10,6 +10,7 @@
 #endif
 // clang-format on
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
@@ -36,6 +37,7 @@ class TetSteps {
  public:
   using Start = TetStart;
   static constexpr bool kInRegisters = true;
+  static constexpr bool kMayWait = true;
   static constexpr bool kCompact = kReads == TetReads::compact;
 
   // Corners are written here only while a lane is given a ray; `cells` and `apex_by_2` always, as
@@ -51,8 +53,8 @@ class TetSteps {
   template <bool kMeasure>
   struct Packet : SegmentStart<kMeasure> {
     Corner<kMeasure> a, b, c;
-    VU previous;          // the cells that compact ones were come to from
-    VF right_a, right_c;  // whether the edges across from a and c cross on the right
+    VU previous;    // the cells that compact ones were come to from
+    Across across;  // of b, and of products' sizes, nothing where nothing is measured
 
     HWY_INLINE void Load(const State& state) {
       const DF d;
@@ -61,8 +63,9 @@ class TetSteps {
       b.Load(state.corners[1]);
       c.Load(state.corners[2]);
       if constexpr (kCompact) previous = hn::Load(DU(), state.previous);
-      right_a = hn::Load(d, state.corners[0].right);
-      right_c = hn::Load(d, state.corners[2].right);
+      across.a = hn::Load(d, state.corners[0].across);
+      if constexpr (kMeasure) across.b = hn::Load(d, state.corners[1].across);
+      across.c = hn::Load(d, state.corners[2].across);
     }
     HWY_INLINE void Store(State& state) const {
       const DF d;
@@ -70,8 +73,9 @@ class TetSteps {
       a.Store(state.corners[0]);
       b.Store(state.corners[1]);
       c.Store(state.corners[2]);
-      hn::Store(right_a, d, state.corners[0].right);
-      hn::Store(right_c, d, state.corners[2].right);
+      hn::Store(across.a, d, state.corners[0].across);
+      if constexpr (kMeasure) hn::Store(across.b, d, state.corners[1].across);
+      hn::Store(across.c, d, state.corners[2].across);
       if constexpr (kCompact) hn::Store(previous, DU(), state.previous);
     }
   };
@@ -88,7 +92,11 @@ class TetSteps {
       corner.z[lane] = start.corners[c].z;
       corner.s[lane] = start.corners[c].scalar;
       corner.id[lane] = start.ids[c];
-      corner.right[lane] = start.right[c] ? -1.0f : 1.0f;
+      const ShearedPoint& p = start.corners[(c + 1) % 3];
+      const ShearedPoint& q = start.corners[(c + 2) % 3];
+      const double product = static_cast<double>(p.x) * q.y - static_cast<double>(q.x) * p.y;
+      const float size = std::abs(static_cast<float>(product));
+      corner.across[lane] = start.right[c] ? -size : size;
     }
     state.cells[lane] = start.cell << kShift;
     state.apex_by_2[lane] = 2 * start.apex;
@@ -110,6 +118,15 @@ class TetSteps {
 
   template <bool kMeasure>
   HWY_INLINE StepResult Step(State& state, Packet<kMeasure>& packet) const {
+    return Step<false>(hn::Zero(DF()), state, packet);
+  }
+  HWY_INLINE StepResult StepUnless(VF waits, State& state, Packet<true>& packet) const {
+    return Step<true>(waits, state, packet);
+  }
+
+ private:
+  template <bool kWaits, bool kMeasure>
+  HWY_INLINE StepResult Step(VF waits, State& state, Packet<kMeasure>& packet) const {
     const DF d;
     const DU du;
     const auto cells = read_cells(state, packet);
@@ -129,13 +146,18 @@ class TetSteps {
     const VF y = hn::Abs(apex.y);
     const VF x = hn::Xor(apex.x, hn::And(apex.y, hn::SignBit(d)));
     auto crosses_right = [&](const Corner<kMeasure>& corner) {
-      const VF right = hn::Sub(hn::MulAdd(x, corner.y, hn::Zero(d)), hn::Mul(corner.x, y));
-      return hn::And(right, hn::Xor(corner.y, apex.y));
+      const VF product = hn::Mul(corner.x, y);
+      const VF right = hn::Sub(hn::MulAdd(x, corner.y, hn::Zero(d)), product);
+      const VF bit = hn::And(right, hn::Xor(corner.y, apex.y));
+      if constexpr (!kMeasure) return bit;
+      // DifferenceOfProducts(x, corner.y, corner.x, y)
+      const VF error = hn::NegMulAdd(corner.x, y, product);
+      return hn::CopySign(hn::Add(hn::MulSub(x, corner.y, product), error), bit);
     };
     const VF to_a = crosses_right(a), to_b = crosses_right(b), to_c = crosses_right(c);
     // The faces that leave out a, b, c: one of them winds.
-    VF out_a = hn::Xor(packet.right_a, hn::Xor(to_b, to_c));
-    VF out_c = hn::Xor(packet.right_c, hn::Xor(to_a, to_b));
+    VF out_a = hn::Xor(packet.across.a, hn::Xor(to_b, to_c));
+    VF out_c = hn::Xor(packet.across.c, hn::Xor(to_a, to_b));
     VF out_b = hn::Not(hn::Xor(out_a, out_c));
     const VF all = hn::And(out_a, out_c);
     if (HWY_UNLIKELY(!hn::AllFalse(d, MaskOfBits(all)))) {
@@ -152,8 +174,15 @@ class TetSteps {
 
     const VU behind = Choose(out_c, c.id, Choose(out_a, a.id, b.id));
     const Links next = next_cells(cells, packet, Rank(behind, a.id, b.id, c.id, apex.id), apex.id);
-    packet.right_a = Choose(out_b, to_c, Choose(out_c, to_b, packet.right_a));
-    packet.right_c = Choose(out_a, to_b, Choose(out_b, to_a, packet.right_c));
+    if constexpr (kWaits) {
+      out_a = hn::AndNot(waits, out_a);
+      out_b = hn::AndNot(waits, out_b);
+      out_c = hn::AndNot(waits, out_c);
+    }
+    Across& across = packet.across;
+    across.a = Choose(out_b, to_c, Choose(out_c, to_b, across.a));
+    if constexpr (kMeasure) across.b = Choose(out_c, to_a, Choose(out_a, to_c, across.b));
+    across.c = Choose(out_a, to_b, Choose(out_b, to_a, across.c));
     a.Replace(out_a, apex);
     b.Replace(out_b, apex);
     c.Replace(out_c, apex);
@@ -162,17 +191,25 @@ class TetSteps {
     // which mean nothing without a way in, to any number.
     auto left = hn::Eq(next.cell, hn::Set(du, kNone));
     if constexpr (kCompact) left = hn::Gt(next.cell, hn::Set(du, last_cell_));
-    if constexpr (kCompact) packet.previous = hn::ShiftRight<kShift>(hn::Load(du, state.cells));
-    hn::Store(hn::IfThenZeroElse(left, hn::ShiftLeft<kShift>(next.cell)), du, state.cells);
-    if constexpr (!kCompact) hn::Store(hn::Add(next.apex, next.apex), du, state.apex_by_2);
+    auto go_to = [&](VU there, VU here) {
+      if constexpr (kWaits) return Choose(waits, here, there);
+      return there;
+    };
+    const VU cell = hn::Load(du, state.cells);
+    if constexpr (kCompact)
+      packet.previous = go_to(hn::ShiftRight<kShift>(cell), packet.previous);
+    else
+      hn::Store(go_to(hn::Add(next.apex, next.apex), hn::Load(du, state.apex_by_2)), du,
+                state.apex_by_2);
+    hn::Store(go_to(hn::IfThenZeroElse(left, hn::ShiftLeft<kShift>(next.cell)), cell), du,
+              state.cells);
 
     StepResult result;
     result.left = hn::RebindMask(d, left);
-    if constexpr (kMeasure) Measure(a, b, c, result);
+    if constexpr (kMeasure) Measure(a, b, c, across, result);
     return result;
   }
 
- private:
   // What compact cells say of the lanes' neighbours.
   struct CompactLanes {
     VU of_1, of_2, of_3;
@@ -189,11 +226,10 @@ class TetSteps {
     }
   };
 
-  // How many of the four are below it.
+  // How many of the four are below it: numbers of points are below 2^31.
   static HWY_INLINE VU Rank(VU id, VU a, VU b, VU c, VU d) {
-    const DU du;
-    auto below = [&](VU other) { return hn::VecFromMask(du, hn::Lt(other, id)); };
-    return hn::Sub(hn::Zero(du), hn::Add(hn::Add(below(a), below(b)), hn::Add(below(c), below(d))));
+    auto below = [&](VU other) { return hn::ShiftRight<31>(hn::Sub(other, id)); };
+    return hn::Add(hn::Add(below(a), below(b)), hn::Add(below(c), below(d)));
   }
 
   const float* compact_cells() const {

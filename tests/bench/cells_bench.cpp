@@ -119,15 +119,15 @@ Rows measure_all(const std::vector<Contender>& all, Mode mode, int rounds) {
     row.ns_per_face = row.ns_per_cell / row.faces_per_cell;
     rows.push_back(row);
   }
-  const auto face_of = [&rows](const char* walker) {
-    return std::find_if(rows.begin(), rows.end(),
-                        [&](const CellsResult& row) { return row.walker == walker; })
-        ->ns_per_face;
+  const auto row_of = [&rows](const char* walker) {
+    return *std::find_if(rows.begin(), rows.end(),
+                         [&](const CellsResult& row) { return row.walker == walker; });
   };
-  const double scalar = face_of("tet-walker"), packets = face_of("tet-packets");
+  const CellsResult scalar = row_of("tet-walker"), packets = row_of("tet-packets");
   for (CellsResult& row : rows) {
-    row.to_tet_walker = row.ns_per_face / scalar;
-    row.to_tet_packets = row.ns_per_face / packets;
+    row.to_tet_walker = row.ns_per_face / scalar.ns_per_face;
+    row.to_tet_packets = row.ns_per_face / packets.ns_per_face;
+    row.crossed_to_tet_packets = row.ns_per_cell / packets.ns_per_cell;
   }
   return rows;
 }
@@ -156,6 +156,7 @@ void run(benchmark::State& state, Mode mode, std::size_t at, const CellsBenchOpt
   state.counters["ns/face"] = row.ns_per_face;
   state.counters["x_tet_walker"] = row.to_tet_walker;
   state.counters["x_tet_packets"] = row.to_tet_packets;
+  state.counters["x_crossed"] = row.crossed_to_tet_packets;
   state.counters["bytes/cell"] = row.bytes_per_cell;
   results.push_back(row);
 }

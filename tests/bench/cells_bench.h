@@ -27,6 +27,9 @@ struct CellsResult {
   double ns_per_face = 0;
   /// How many times what a tetrahedron's face costs the scalar walker, and packets.
   double to_tet_walker = 0, to_tet_packets = 0;
+  /// A cell's time is that of a face that is crossed: how many times what one costs packets of
+  /// tetrahedra.
+  double crossed_to_tet_packets = 0;
 };
 
 /// Registers cells/<mode>/<mesh>/<walker> with Google Benchmark, in the modes cells and integral:

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "plume/mesh/error.h"
+#include "plume/tests/bench/empty_cells_frames.h"
 #include "plume/tests/bench/empty_space_frames.h"
 #include "plume/tests/bench/hexahedra_frames.h"
 #include "plume/tests/bench/hierarchy_frames.h"
@@ -26,7 +27,8 @@ constexpr const char* kHelp = R"(plume_frame_bench: whole frames, from the rays 
                    split in data space against the paper's tables
   --tolerance      what is asked for, what the planner chooses, and what that comes to, in all modes
   --hierarchy      an opaque isosurface through the hierarchy of cells against walking to it, of
-                   10 million tetrahedra, hexahedra and mixed cells: only where it is asked for
+                   10 million tetrahedra, hexahedra and mixed cells; volumes of which little is
+                   seen: only where it is asked for
   --empty-space    passing over what is not seen of a rectilinear grid against walking through it:
                    only where it is asked for
                    all but these two where none is asked for
@@ -106,6 +108,7 @@ int main(int argc, char** argv) {
     }
     if (modes) good = plume::bench::compare_modes(mode_options) && good;
     if (hierarchy) good = plume::bench::compare_isosurfaces(hierarchy_options) && good;
+    if (hierarchy) good = plume::bench::compare_empty_cells(hierarchy_options) && good;
     if (empty_space) good = plume::bench::compare_empty_space(empty_options) && good;
     if (intervals) {
       good = plume::bench::compare_with_volume_alone(interval_options) && good;

@@ -40,7 +40,7 @@ void ClosedFormBy(const Pieces& pieces, const PieceTable& table,
       [&](std::size_t at) {
         const VF zero = hn::Zero(d), one = hn::Set(d, 1.0f);
         optics::Sums sums{zero, zero, zero, one};
-        optics::Composite(pieces, hn::Eq(zero, zero), hn::LoadU(d, &segments.s_in[at]),
+        optics::Composite(pieces, hn::LoadU(d, &segments.s_in[at]),
                           hn::LoadU(d, &segments.s_out[at]), hn::LoadU(d, &segments.length[at]),
                           piece, sums);
         hn::StoreU(sums.r, d, &colors.r[at]);

@@ -46,10 +46,8 @@ class Bench {
         left_out > 0 ? fmt::format("; {} more are not there for all walkers", left_out) : "");
     wrong_ = problem(baseline(source.family), source.family, Mode::integral, agreement);
     if (source.family != Family::hexahedra) return;
-    constexpr const char* kPlanar[] = {"are taken for twisted", "are planar where it is stored",
-                                       "are planar, all of them"};
-    fmt::print(stderr, "plume_bench: {}: faces {}\n", source.name,
-               kPlanar[static_cast<std::size_t>(mesh_->grid.planar_faces)]);
+    fmt::print(stderr, "plume_bench: {}: faces are {}\n", source.name,
+               mesh_->grid.planar_faces ? "planar, all of them" : "taken for twisted");
   }
 
   const MeshSource& source() const { return source_; }

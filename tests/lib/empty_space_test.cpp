@@ -172,6 +172,27 @@ TEST(EmptySpace, OfANewFieldIsItsOwn) {
   EXPECT_GT(over, 0u);
 }
 
+// A table blurs what is empty beside what is not, and that is seen: pictures stay as they are.
+TEST(EmptySpace, OfATableIsAsWithoutPassingOver) {
+  Scene scene = scene_of("waves");
+  const float low = scene.field().low, width = scene.field().high - low;
+  TransferFunction peaks;
+  peaks.knots = {{low, {0, {1, 0, 0}}},
+                 {low + 0.05f * width, {0, {1, 0, 0}}},
+                 {low + 0.06f * width, {90, {1, 0.5f, 0}}},
+                 {low + 0.07f * width, {0, {0, 0, 1}}},
+                 {low + width, {0, {0, 0, 1}}}};
+  scene.set_transfer_function(peaks);
+  RenderSettings settings = small();
+  settings.integrator.kind = IntegratorKind::table;
+  settings.integrator.table.scalar_count = 32;
+  const Camera camera = named_view("iso", scene.bounds());
+  const RenderResult ours = render(scene, camera, settings);
+  settings.scalar_twin = true;
+  const RenderResult walked = render(scene, camera, settings);
+  EXPECT_TRUE(same(ours.image.rgba, walked.image.rgba));
+}
+
 // Where nothing may be gained, or the picture may differ, all is walked.
 TEST(EmptySpace, IsWalkedThroughWhereItMatters) {
   Scene scene = scene_of("waves");

@@ -10,6 +10,7 @@
 #include "plume/datasets/generate.h"
 #include "plume/lib/make_tiles.h"
 #include "plume/lib/plume.h"
+#include "plume/lib/search_choice.h"
 #include "plume/lib/tiles.h"
 
 namespace plume::test {
@@ -42,10 +43,9 @@ RenderResult search(const Scene& scene, const Camera& camera, const RenderSettin
 // Renders both ways and returns the statistics of the one through the hierarchy.
 RenderStatistics expect_same(const Scene& scene, const Camera& camera, RenderSettings settings,
                              const std::string& which, bool even_beside_packets = false) {
-  const bool can_search = !no_search(scene, settings, false);
-  const RenderResult searched = even_beside_packets && can_search ? search(scene, camera, settings)
-                                                                  : render(scene, camera, settings);
-  if (even_beside_packets && !can_search) return {};
+  if (even_beside_packets && !choose_search(scene, settings, false).search) return {};
+  const RenderResult searched =
+      even_beside_packets ? search(scene, camera, settings) : render(scene, camera, settings);
   settings.scalar_twin = true;
   const RenderResult walked = render(scene, camera, settings);
   EXPECT_EQ(walked.statistics.rays_searched, 0u) << which;
@@ -251,7 +251,7 @@ TEST(HierarchyPictures, AreMadeWhereOnlyIsosurfacesAreToBeSeen) {
   Classification with_volume = scene.classification();
   with_volume.isosurfaces = {{at(scene, 0.5f), 1, {1, 1, 1}}};
   scene.set_classification(with_volume);
-  expect_walked(small(), "not isosurfaces alone");
+  expect_walked(small(), "all cells may be seen");
   scene.set_classification(surfaces({{at(scene, 0.5f), 1, {1, 1, 1}}}));
   RenderSettings settings = small();
   settings.channels = {"cell_count"};

@@ -23,6 +23,10 @@
 namespace plume::test {
 namespace {
 
+struct SoughtIsovalue {
+  float value = 0;
+  bool opaque = false;  // nothing behind it matters
+};
 struct Sought {
   std::vector<SoughtIsovalue> values;
   double connected = 0;
@@ -75,8 +79,12 @@ void expect_as_walked(const Traced<TetWalker>& traced, const std::vector<Ray>& r
   std::vector<SearchedRay> found(RayBundle::kRays);
   RayBundle bundle;
   std::vector<std::size_t> in_bundle;
+  std::vector<ScalarWindow> windows;
+  for (const SoughtIsovalue& s : sought.values) windows.push_back({s.value, s.value});
+  const SoughtSegments segments{
+      windows, [&](const Segment& s) { return ends_at(sought, s) ? 1 : 0; }, 0, sought.connected};
   auto flush = [&] {
-    find_isosurfaces(leaves, sought.values, sought.connected, bundle, found);
+    find_segments(leaves, segments, bundle, found);
     for (std::size_t i = 0; i < in_bundle.size(); ++i) {
       const std::string where = which + ", ray " + std::to_string(in_bundle[i]);
       ++tally.rays;

@@ -126,10 +126,10 @@ constexpr double kTetLengthError = 8e-6;
 void expect_tet_twins(const Mesh& mesh, std::uint64_t rays) {
   for (const TetLinks links : {TetLinks::whole, TetLinks::compact}) {
     SCOPED_TRACE(links == TetLinks::whole ? "whole links" : "compact cells");
-    expect_twins<TetWalker>(mesh,
-                            make_walkable_tets(mesh, select_field(mesh), check_structure(mesh),
-                                               false, false, links),
-                            rays, kTetLengthError);
+    expect_twins<TetWalker>(
+        mesh,
+        make_walkable_tets(mesh, select_field(mesh), check_structure(mesh), false, false, links),
+        rays, kTetLengthError);
   }
 }
 
@@ -267,6 +267,58 @@ TEST(EdgePackets, WalkAsFewRaysAsOne) {
 }
 
 TEST(CellPackets, WalkAsFewRaysAsOne) { expect_cell_twins(generate("box-mixed", {3, 0.2, 5}), 3); }
+
+// Of a linear field, what is measured where the ray crosses a face is its value there: also where
+// the ray lies in a face's plane, which gives no place by its corners' weights.
+TEST(TetPackets, MeasureALinearFieldWhereTheRayIs) {
+  for (const double jitter : {0.0, 0.25}) {
+    SCOPED_TRACE(jitter);
+    const Mesh user_mesh = generate("box-tetrahedra", {8, jitter, 5});
+    const WalkableTets mesh = make_walkable_tets(user_mesh, select_field(user_mesh, {"linear"}),
+                                                 check_structure(user_mesh), false);
+    const BoundaryIndex<TetWalker> boundary(mesh);
+    AdversarialRays make_ray(user_mesh, bounds_of(user_mesh.points), 37);
+    std::vector<std::vector<TetStart>> starts(3);
+    std::vector<Ray> rays;
+    std::vector<double> entries;
+    for (std::uint64_t i = 0; i < 20000; ++i) {
+      const Ray ray = make_ray(i);
+      ShearedFrame frame;
+      ASSERT_TRUE(frame.set(ray, mesh.frame));
+      TetWalker walker(mesh, frame);
+      const auto entry = Entries<TetWalker>().first(boundary, walker, frame);
+      if (!entry) continue;
+      starts[static_cast<std::size_t>(frame.axis())].push_back(
+          make_start(mesh, frame, mesh.boundary[entry->boundary], entry->place, entry->rank,
+                     static_cast<std::uint32_t>(rays.size())));
+      rays.push_back(ray);
+      entries.push_back(frame.t(entry->place.z));
+    }
+    const InstructionSets sets;
+    for (const std::int64_t target : sets.each) {
+      limit_packet_instruction_sets(target);
+      SCOPED_TRACE(packet_instruction_set());
+      Segments found(rays.size());
+      for (int axis = 0; axis < 3; ++axis) {
+        Starts<TetStart> feeder(starts[static_cast<std::size_t>(axis)]);
+        walk_segments(mesh, axis, feeder, found);
+      }
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        double t = entries[i];
+        const auto& d = rays[i].direction;
+        const double unit = 1 / std::hypot(d[0], d[1], d[2]);
+        for (const PacketSegment& segment : found.of_ray[i]) {
+          t += segment.length * unit;
+          double value = 0;
+          for (std::size_t a = 0; a < 3; ++a)
+            value += static_cast<double>(a + 1) * (rays[i].origin[a] + t * d[a]);
+          // The field runs from 0 to 6; single precision, and a step along the ray for each cell.
+          ASSERT_NEAR(segment.s_out, value, 2e-5) << "ray " << i;
+        }
+      }
+    }
+  }
+}
 
 // A box of this width and length 1, for rays that run along it.
 Mesh needle(const std::string& generator, double width) {
