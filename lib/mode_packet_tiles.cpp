@@ -180,7 +180,8 @@ bool has_mode_packets(const Frame& frame) {
 
 double mode_packet_error(const Scene& scene, const RenderSettings& settings) {
   const Mode mode = settings.mode;
-  const double of_numbers = is_linear(scene, settings) ? 1e-5 : 2.5e-5;
+  const bool of_one_place = mode == Mode::maximum || mode == Mode::minimum || mode == Mode::depth;
+  const double of_numbers = of_one_place && !is_linear(scene, settings) ? 2.5e-5 : 1e-5;
   if (mode == Mode::cell_count) return 0;
   if (in_words(mode).shade != ShadeBy::transfer_function) return of_numbers;
   const auto& knots = scene.transfer_function().knots;
