@@ -90,6 +90,7 @@ class Planner {
       take_reference();
     } else {
       plan_.reasons.push_back(fmt::format("tolerance {:g} in each channel", asked_.max_error));
+      if (has_orders_) choose_precision();
       if (asked_.choose_integrator) choose_integrator();
       if (composites_) choose_early_termination();
       if (asked_.choose_order && has_orders_) choose_order();
@@ -133,6 +134,15 @@ class Planner {
     if (asked_.choose_early_termination) settings().early_termination = reference.early_termination;
     settings().scalar_twin = true;
     plan_.reasons.push_back("tolerance 0: the reference");
+  }
+
+  // Where render() would not take packets' numbers, candidates are not to be measured by packets,
+  // either.
+  void choose_precision() {
+    if (settings().mode == Mode::volume) return;
+    RenderSettings curved = settings();
+    if (asked_.choose_order) curved.order = ScalarOrder::adaptive;
+    if (mode_packet_error(scene_, curved) > asked_.max_error / 4) settings().scalar_twin = true;
   }
 
   void choose_integrator() {

@@ -59,8 +59,8 @@ bool has_mode_packets(const Frame& frame);
 
 /// By how much a channel of such a picture may differ from that made in double: numbers by 1e-5 of
 /// the field's range or of the picture's greatest (mode_packets.h; plume_frame_bench --modes),
-/// above order 1 by 2.5e-5 (2.3e-5 was met on the combustor), and their colours as the transfer
-/// function makes of that.
+/// those of one place on a ray above order 1 by 2.5e-5 (2.3e-5 was met on the combustor), and their
+/// colours as the transfer function makes of that.
 double mode_packet_error(const Scene& scene, const RenderSettings& settings);
 
 /// The same pictures by packets of rays. Requires has_mode_packets(frame).
