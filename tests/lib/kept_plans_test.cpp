@@ -86,6 +86,9 @@ TEST(KeptPlans, AreThePlansThatWouldBeMade) {
 
 TEST(KeptPlans, AreLookedAtAgainWhereTheViewOrTheValuesChange) {
   Shown shown;
+  // With room for what the estimate differs by from view to view: at 3e-2 one of these views wants
+  // smaller parts, and is planned anew.
+  shown.settings.tolerance = Tolerance{5e-2};
   EXPECT_EQ(way_of(shown.picture()), Way::anew);
   const std::function<void()> changes[] = {
       [&] { orbit(shown.camera, 5, 0); },
@@ -101,9 +104,11 @@ TEST(KeptPlans, AreLookedAtAgainWhereTheViewOrTheValuesChange) {
   for (const auto& change : changes) {
     change();
     const RenderResult result = shown.picture();
-    EXPECT_EQ(way_of(result), Way::checked);
+    std::string plan;
+    for (const std::string& line : result.statistics.plan) plan += line + "\n";
+    EXPECT_EQ(way_of(result), Way::checked) << plan;
     EXPECT_GE(*result.statistics.error_estimate, estimate);  // over all that were looked at
-    EXPECT_LE(*result.statistics.error_estimate, 3e-2);
+    EXPECT_LE(*result.statistics.error_estimate, 5e-2);
     estimate = *result.statistics.error_estimate;
     EXPECT_EQ(way_of(shown.picture()), Way::kept);
   }
