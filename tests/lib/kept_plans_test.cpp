@@ -42,7 +42,7 @@ struct Shown {
     RenderSettings made;
     made.width = 80;
     made.height = 60;
-    made.tolerance = Tolerance{3e-2};
+    made.tolerance = Tolerance{4e-2};
     return made;
   }();
 
@@ -86,9 +86,6 @@ TEST(KeptPlans, AreThePlansThatWouldBeMade) {
 
 TEST(KeptPlans, AreLookedAtAgainWhereTheViewOrTheValuesChange) {
   Shown shown;
-  // With room for what the estimate differs by from view to view: at 3e-2 one of these views wants
-  // smaller parts, and is planned anew.
-  shown.settings.tolerance = Tolerance{5e-2};
   EXPECT_EQ(way_of(shown.picture()), Way::anew);
   const std::function<void()> changes[] = {
       [&] { orbit(shown.camera, 5, 0); },
@@ -104,11 +101,9 @@ TEST(KeptPlans, AreLookedAtAgainWhereTheViewOrTheValuesChange) {
   for (const auto& change : changes) {
     change();
     const RenderResult result = shown.picture();
-    std::string plan;
-    for (const std::string& line : result.statistics.plan) plan += line + "\n";
-    EXPECT_EQ(way_of(result), Way::checked) << plan;
+    EXPECT_EQ(way_of(result), Way::checked);
     EXPECT_GE(*result.statistics.error_estimate, estimate);  // over all that were looked at
-    EXPECT_LE(*result.statistics.error_estimate, 5e-2);
+    EXPECT_LE(*result.statistics.error_estimate, shown.settings.tolerance->max_error);
     estimate = *result.statistics.error_estimate;
     EXPECT_EQ(way_of(shown.picture()), Way::kept);
   }
@@ -125,7 +120,8 @@ TEST(KeptPlans, BeginWithTheLastOrderForAnotherTransferFunction) {
   EXPECT_EQ(way_of(result), Way::checked);
   EXPECT_EQ(result.statistics.order, first.statistics.order);
   const RenderResult right = render(shown.scene, shown.camera, reference_settings(shown.settings));
-  EXPECT_LE(greatest_difference(result.image, right.image, Mode::volume, 0), 3e-2);
+  EXPECT_LE(greatest_difference(result.image, right.image, Mode::volume, 0),
+            shown.settings.tolerance->max_error);
 }
 
 TEST(KeptPlans, AreMadeAnewForAnotherLookOrTolerance) {
@@ -185,7 +181,8 @@ TEST(KeptPlans, AreGivenUpWhereTheyDoNotDo) {
   EXPECT_EQ(way_of(result), Way::anew);
   EXPECT_GE(result.statistics.order, order);
   const RenderResult right = render(shown.scene, shown.camera, reference_settings(shown.settings));
-  EXPECT_LE(greatest_difference(result.image, right.image, Mode::volume, 0), 3e-2);
+  EXPECT_LE(greatest_difference(result.image, right.image, Mode::volume, 0),
+            shown.settings.tolerance->max_error);
 }
 
 }  // namespace

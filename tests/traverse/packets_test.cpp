@@ -274,7 +274,7 @@ TEST(TetPackets, MeasureALinearFieldWhereTheRayIs) {
   for (const double jitter : {0.0, 0.25}) {
     SCOPED_TRACE(jitter);
     const Mesh user_mesh = generate("box-tetrahedra", {8, jitter, 5});
-    const WalkableTets mesh = make_walkable_tets(user_mesh, select_field(user_mesh, {"linear"}),
+    const WalkableTets mesh = make_walkable_tets(user_mesh, select_field(user_mesh, {"linear", {}}),
                                                  check_structure(user_mesh), false);
     const BoundaryIndex<TetWalker> boundary(mesh);
     AdversarialRays make_ray(user_mesh, bounds_of(user_mesh.points), 37);
