@@ -68,13 +68,11 @@ struct Corner {
   }
 };
 
-// Products below that are looked at again: no power of two brings them to about 1.
-constexpr float kEdgeOn = 0x1p-96f;
-
-// The same of a triangle that the ray lies in the plane of, or nearly: on its two edges that cross
-// y = 0.
-inline HWY_NOINLINE void MeasureEdgeOn(Corner<true> a, Corner<true> b, Corner<true> c,
-                                       StepResult& result) {
+// Where rays cross the triangle a, b, c: measure_triangle() in single precision, between the places
+// where two of its edges cross y = 0. No bound on one crossing has been measured; sums of lengths
+// are held against the twin's in tests/traverse/packets_test.cpp.
+HWY_INLINE void MeasureBetweenEdges(const Corner<true>& a, const Corner<true>& b,
+                                    const Corner<true>& c, StepResult& result) {
   const DF d;
   const VF ab = hn::Xor(a.y, b.y), ac = hn::Xor(a.y, c.y);  // on different sides of y = 0
   const VF lone_b = hn::AndNot(ac, ab), lone_c = hn::AndNot(ab, ac);
@@ -114,13 +112,22 @@ struct Across {
   VF a, b, c;
 };
 
-// Where rays cross the triangle a, b, c: measure_triangle() in single precision, with products that
-// do not cancel. As the triangle winds about the ray, its corners' weights are the products' sizes,
-// whatever rounding made of their signs. No bound on one crossing has been measured; sums of
-// lengths are held against the twin's in tests/traverse/packets_test.cpp.
+#if HWY_NATIVE_FMA
+
+// For the few that products say nothing of, as the ray lies in their planes or is next to it.
+inline HWY_NOINLINE void MeasureEdgeOn(Corner<true> a, Corner<true> b, Corner<true> c,
+                                       StepResult& result) {
+  MeasureBetweenEdges(a, b, c, result);
+}
+
+// The same by corners' weights: as the triangle winds about the ray they are the products' sizes,
+// whatever rounding made of their signs. That takes products that do not cancel: without a fused
+// multiply-add, triangles next to edge-on would be crossed anywhere (an error of 0.2 of a cell was
+// met).
 HWY_INLINE void Measure(const Corner<true>& a, const Corner<true>& b, const Corner<true>& c,
                         const Across& across, StepResult& result) {
   const DF d;
+  constexpr float kEdgeOn = 0x1p-96f;  // below, what products lose by rounding underflows
   const VF of_b = hn::Abs(across.b), of_c = hn::Abs(across.c);
   const VF sum = hn::Add(hn::Abs(across.a), hn::Add(of_b, of_c));
   const VF share = hn::Div(hn::Set(d, 1.0f), sum);
@@ -138,6 +145,15 @@ HWY_INLINE void Measure(const Corner<true>& a, const Corner<true>& b, const Corn
     result.s = hn::IfThenElse(edge_on, in_plane.s, result.s);
   }
 }
+
+#else
+
+HWY_INLINE void Measure(const Corner<true>& a, const Corner<true>& b, const Corner<true>& c,
+                        const Across&, StepResult& result) {
+  MeasureBetweenEdges(a, b, c, result);
+}
+
+#endif
 
 }  // namespace HWY_NAMESPACE
 }  // namespace plume
