@@ -30,7 +30,8 @@ struct CurvedPackets {
 /// composite_packets() (volume_packets.h) above order 1, of a field on points. Scalars inside of
 /// cells come from Newton's method in single precision (traverse/inner_lanes-inl.h), where that
 /// does not answer from scalars_inside(); a segment without an answer is linear. Each is cut into
-/// parts of equal length on which the scalar is linear within `tolerance`.
+/// parts of equal length on which the scalar is linear within `tolerance`, with the polynomial's
+/// mean.
 ///
 /// Error against the scalar code at the same order and tolerance: both cut segments into linear
 /// parts, but elsewhere, so that colours differ by what the tolerance makes of a scalar. In
