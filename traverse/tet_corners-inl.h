@@ -107,12 +107,20 @@ HWY_INLINE void MeasureBetweenEdges(const Corner<true>& a, const Corner<true>& b
 }
 
 // The edges across from a triangle's corners, by the products (twice the areas) that they span with
-// the ray; their signs are the bits that say whether the edges cross y = 0 on the ray's right.
+// the ray; their signs are the bits that say whether the edges cross y = 0 on the ray's right. No
+// numbers are those of edges so close to the ray that rounding decided on which side.
 struct Across {
   VF a, b, c;
 };
 
+// All bits of a lane as that of its sign.
+HWY_INLINE VF AllBits(VF bits) {
+  return hn::BitCast(DF(), hn::BroadcastSignBit(hn::BitCast(hn::RebindToSigned<DF>(), bits)));
+}
+
 #if HWY_NATIVE_FMA
+
+constexpr bool kByWeights = true;
 
 // For the few that products say nothing of, as the ray lies in their planes or is next to it.
 inline HWY_NOINLINE void MeasureEdgeOn(Corner<true> a, Corner<true> b, Corner<true> c,
@@ -121,9 +129,9 @@ inline HWY_NOINLINE void MeasureEdgeOn(Corner<true> a, Corner<true> b, Corner<tr
 }
 
 // The same by corners' weights: as the triangle winds about the ray they are the products' sizes,
-// whatever rounding made of their signs. That takes products that do not cancel: without a fused
-// multiply-add, triangles next to edge-on would be crossed anywhere (an error of 0.2 of a cell was
-// met).
+// all of one sign. That takes products that do not cancel, and whose signs are those that decided:
+// of triangles next to edge-on all products are next to 0, and with a wrong one they would be
+// crossed anywhere (an error of 0.2 of a cell was met).
 HWY_INLINE void Measure(const Corner<true>& a, const Corner<true>& b, const Corner<true>& c,
                         const Across& across, StepResult& result) {
   const DF d;
@@ -137,16 +145,18 @@ HWY_INLINE void Measure(const Corner<true>& a, const Corner<true>& b, const Corn
   };
   result.z = place(&Corner<true>::z);
   result.s = place(&Corner<true>::s);
-  const MF edge_on = hn::Lt(sum, hn::Set(d, kEdgeOn));
-  if (HWY_UNLIKELY(!hn::AllFalse(d, edge_on))) {
+  const MF known = hn::Ge(sum, hn::Set(d, kEdgeOn));
+  if (HWY_UNLIKELY(!hn::AllTrue(d, known))) {
     StepResult in_plane;
     MeasureEdgeOn(a, b, c, in_plane);
-    result.z = hn::IfThenElse(edge_on, in_plane.z, result.z);
-    result.s = hn::IfThenElse(edge_on, in_plane.s, result.s);
+    result.z = hn::IfThenElse(known, result.z, in_plane.z);
+    result.s = hn::IfThenElse(known, result.s, in_plane.s);
   }
 }
 
 #else
+
+constexpr bool kByWeights = false;
 
 HWY_INLINE void Measure(const Corner<true>& a, const Corner<true>& b, const Corner<true>& c,
                         const Across&, StepResult& result) {

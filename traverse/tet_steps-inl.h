@@ -13,6 +13,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <type_traits>
 
 #include "hwy/highway.h"
@@ -94,9 +95,7 @@ class TetSteps {
       corner.id[lane] = start.ids[c];
       const ShearedPoint& p = start.corners[(c + 1) % 3];
       const ShearedPoint& q = start.corners[(c + 2) % 3];
-      const double product = static_cast<double>(p.x) * q.y - static_cast<double>(q.x) * p.y;
-      const float size = std::abs(static_cast<float>(product));
-      corner.across[lane] = start.right[c] ? -size : size;
+      corner.across[lane] = std::copysign(SizeOf(p, q), start.right[c] ? -1.0f : 1.0f);
     }
     state.cells[lane] = start.cell << kShift;
     state.apex_by_2[lane] = 2 * start.apex;
@@ -149,10 +148,12 @@ class TetSteps {
       const VF product = hn::Mul(corner.x, y);
       const VF right = hn::Sub(hn::MulAdd(x, corner.y, hn::Zero(d)), product);
       const VF bit = hn::And(right, hn::Xor(corner.y, apex.y));
-      if constexpr (!kMeasure) return bit;
-      // DifferenceOfProducts(x, corner.y, corner.x, y)
+      if constexpr (!kMeasure || !kByWeights) return bit;
+      // DifferenceOfProducts(x, corner.y, corner.x, y), no number where the sign is not what was
+      // decided.
       const VF error = hn::NegMulAdd(corner.x, y, product);
-      return hn::CopySign(hn::Add(hn::MulSub(x, corner.y, product), error), bit);
+      const VF size = hn::Add(hn::MulSub(x, corner.y, product), error);
+      return hn::CopySign(hn::Or(size, AllBits(hn::Xor(size, right))), bit);
     };
     const VF to_a = crosses_right(a), to_b = crosses_right(b), to_c = crosses_right(c);
     // The faces that leave out a, b, c: one of them winds.
@@ -225,6 +226,16 @@ class TetSteps {
       return hn::Xor(across_in, hn::Xor(Sum(in), Sum(out)));
     }
   };
+
+  // What the edge between two corners spans with the ray; no number where rounded products, by
+  // which crossing() decides, have another order.
+  static float SizeOf(const ShearedPoint& p, const ShearedPoint& q) {
+    const double exact = static_cast<double>(p.x) * q.y - static_cast<double>(q.x) * p.y;
+    const float one = p.x * q.y, other = q.x * p.y;
+    const bool as_decided = exact < 0 ? one < other : exact > 0 ? one > other : true;
+    return as_decided ? static_cast<float>(std::abs(exact))
+                      : std::numeric_limits<float>::quiet_NaN();
+  }
 
   // How many of the four are below it: numbers of points are below 2^31.
   static HWY_INLINE VU Rank(VU id, VU a, VU b, VU c, VU d) {
