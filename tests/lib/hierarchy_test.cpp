@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <string>
 #include <utility>
 #include <vector>
@@ -12,6 +11,7 @@
 #include "plume/lib/plume.h"
 #include "plume/lib/search_choice.h"
 #include "plume/lib/tiles.h"
+#include "searched_picture.h"
 
 namespace plume::test {
 namespace {
@@ -21,23 +21,6 @@ RenderSettings small() {
   settings.width = 96;
   settings.height = 80;
   return settings;
-}
-
-// Bits, as NaN is equal to nothing.
-bool same(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
-
-// Through the hierarchy, whatever else there is for the picture.
-RenderResult search(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
-  RenderResult result;
-  Frame frame(scene, camera, settings);
-  const Integrator integrator{ClosedForm(scene.transfer_function())};
-  const auto maker = searched_tiles(frame, integrator);
-  make_tiles(frame, *maker, {}, result.statistics);
-  frame.shade_raw(result.statistics);
-  result.image = std::move(frame.image());
-  return result;
 }
 
 // Renders both ways and returns the statistics of the one through the hierarchy.

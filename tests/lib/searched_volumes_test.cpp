@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <string>
 #include <utility>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "plume/lib/search_choice.h"
 #include "plume/lib/tiles.h"
 #include "plume/preint/integrator.h"
+#include "searched_picture.h"
 
 namespace plume::test {
 namespace {
@@ -23,22 +23,6 @@ RenderSettings small() {
   settings.width = 64;
   settings.height = 56;
   return settings;
-}
-
-bool same(const std::vector<float>& a, const std::vector<float>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(float)) == 0;
-}
-
-// Whether it pays or not.
-RenderResult search(const Scene& scene, const Camera& camera, const RenderSettings& settings) {
-  RenderResult result;
-  Frame frame(scene, camera, settings);
-  const Integrator integrator = make_integrator(scene.transfer_function(), settings.integrator);
-  const auto maker = searched_tiles(frame, integrator);
-  make_tiles(frame, *maker, {}, result.statistics);
-  frame.shade_raw(result.statistics);
-  result.image = std::move(frame.image());
-  return result;
 }
 
 RenderStatistics expect_same(const Scene& scene, const Camera& camera, RenderSettings settings,
