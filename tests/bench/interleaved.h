@@ -34,9 +34,17 @@ struct WalkerTimes {
   double million_cells_per_second() const { return static_cast<double>(cells) / seconds * 1e-6; }
 };
 
-/// Times all walkers of the mesh's family that have the mode, or those of them that are named, view
-/// by view, in turns. Before that, each walks once, which is compared with the reference.
-std::vector<WalkerTimes> measure(const BenchMesh& mesh, const std::vector<BenchView>& views,
-                                 Mode mode, int rounds, const std::vector<std::string>& names = {});
+struct ModeTimes {
+  std::vector<WalkerTimes> walkers;
+  /// The family's baseline as it counts cells (Mode::cells), in the same turns: the speed of a
+  /// machine drifts between modes that are measured one after the other.
+  WalkerTimes walk;
+};
+
+/// Times all walkers of the mesh's family that have the mode, or those of them that are named, and
+/// the baseline's walk alone, view by view, in turns. Before that, each walks once, which is
+/// compared with the reference.
+ModeTimes measure(const BenchMesh& mesh, const std::vector<BenchView>& views, Mode mode, int rounds,
+                  const std::vector<std::string>& names = {});
 
 }  // namespace plume::bench

@@ -31,7 +31,7 @@ class Bench {
     }
     const std::uint64_t tiles = options.all ? source.tiles : source.quick_tiles;
     const int resolution = options.resolution > 0 ? options.resolution : source.resolution;
-    views_ = make_views(*mesh_, resolution, tiles);
+    views_ = make_views(*mesh_, resolution, tiles, options.order);
     const Agreement agreement = drop_lost(*mesh_, views_);
     lost_ = agreement.different.size();
     std::size_t left_out = 0;
@@ -55,7 +55,7 @@ class Bench {
   void run(benchmark::State& state, Mode mode, const BenchWalker& walker) {
     if (!mesh_) return state.SkipWithError("skipped for lack of data");
     if (!wrong_.empty()) return fail(state, wrong_);
-    const auto& times = times_of(mode);
+    const std::vector<WalkerTimes>& times = times_of(mode).walkers;
     const auto of = [&times](const BenchWalker& wanted) -> const WalkerTimes& {
       for (const WalkerTimes& one : times)
         if (one.walker == &wanted) return one;
@@ -85,9 +85,9 @@ class Bench {
   }
 
  private:
-  const std::vector<WalkerTimes>& times_of(Mode mode) {
-    auto& times = times_[mode];
-    if (times.empty()) times = measure(*mesh_, views_, mode, rounds_);
+  const ModeTimes& times_of(Mode mode) {
+    ModeTimes& times = times_[mode];
+    if (times.walkers.empty()) times = measure(*mesh_, views_, mode, rounds_);
     return times;
   }
 
@@ -105,7 +105,7 @@ class Bench {
     const double rate = own.million_cells_per_second();
     result.million_cells_per_second = rate;
     result.ratio = rate / base.million_cells_per_second();
-    result.ratio_to_walk = rate / times_of(Mode::cells).front().million_cells_per_second();
+    result.ratio_to_walk = rate / times_of(mode).walk.million_cells_per_second();
     std::vector<double> of_views, of_rounds;
     for (std::size_t v = 0; v < own.views.size(); ++v)
       of_views.push_back(own.views[v] / base.views[v]);
@@ -132,7 +132,7 @@ class Bench {
   int rounds_;
   std::unique_ptr<BenchMesh> mesh_;
   std::vector<BenchView> views_;
-  std::map<Mode, std::vector<WalkerTimes>> times_;
+  std::map<Mode, ModeTimes> times_;
   std::size_t lost_ = 0;
   std::string wrong_;
 };

@@ -44,7 +44,8 @@ std::map<std::string, double> rates(const Viewed& viewed, Mode mode,
                                     const std::vector<std::string>& names,
                                     const PaperOptions& options) {
   std::map<std::string, double> made;
-  for (const WalkerTimes& times : measure(viewed.mesh, viewed.views, mode, options.rounds, names)) {
+  const ModeTimes measured = measure(viewed.mesh, viewed.views, mode, options.rounds, names);
+  for (const WalkerTimes& times : measured.walkers) {
     if (!times.problem.empty()) throw Error("not the same work: " + times.problem);
     made[times.walker->name] = times.million_cells_per_second();
   }
