@@ -46,12 +46,13 @@ endfunction()
 # Sources that are compiled for each instruction set. With sanitizers one takes a quarter of an hour,
 # so they go without; what they call is compiled with them. GCC stops to inline where a frame gets
 # large, which with vectors is at once: a call that is left in a step costs up to a quarter of it.
-# What AVX3_DL adds to AVX3 is of no use to floats, and would be compiled once more; who names the
-# sets that are left out (CMakePresets.json does for the sanitizers) has named them all.
+# What AVX3_DL adds to AVX3 is of no use to floats, and processors with SSSE3 and no SSE4 are of 2006:
+# each set is all of it compiled once more. Who names the sets that are left out (CMakePresets.json
+# does for the sanitizers) has named them all.
 function(plume_compile_vectors)
   if(NOT CMAKE_CXX_FLAGS MATCHES "HWY_DISABLED_TARGETS")
     set_source_files_properties(${ARGN} PROPERTIES COMPILE_DEFINITIONS
-                                                   HWY_DISABLED_TARGETS=HWY_AVX3_DL)
+                                                   HWY_DISABLED_TARGETS=HWY_AVX3_DL+HWY_SSSE3)
   endif()
   if(CMAKE_CXX_FLAGS MATCHES "-fsanitize")
     set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS -fno-sanitize=all)

@@ -58,25 +58,44 @@ void WithTable(const std::vector<Piece>& pieces, const Composite& composite) {
   composite(FetchedTable<Piece>(pieces));
 }
 
-// Composites by walk(consumer).
+// Where rays end: no later than where the closed form looks no further.
+inline float EnoughOf(const PacketOptics& optics) {
+  return std::max(optics.early_termination, optics::kInvisible);
+}
+
+// Composites a volume by walk(consumer). `cell_values` is empty where the field is on points.
+template <class Walk>
+void CompositeVolume(const PacketOptics& optics, const std::vector<float>& cell_values,
+                     const Walk& walk) {
+  WithTable(optics.volume->pieces, [&](const auto& table) {
+    VolumeConsumer<std::decay_t<decltype(table)>> consumer{
+        *optics.volume, table, cell_values.empty() ? nullptr : cell_values.data(), EnoughOf(optics),
+        optics.colors};
+    walk(consumer);
+  });
+}
+
+// The same of a classification.
+template <class Walk>
+void CompositeClassified(const PacketOptics& optics, const std::vector<float>& cell_values,
+                         const Walk& walk) {
+  WithTable(optics.classified->pieces.pieces, [&](const auto& table) {
+    ClassifiedConsumer<std::decay_t<decltype(table)>> consumer{
+        *optics.classified, table, cell_values.empty() ? nullptr : cell_values.data(),
+        EnoughOf(optics), optics.colors};
+    walk(consumer);
+    consumer.count();
+  });
+}
+
+// Whichever of the two there is.
 template <class Walk>
 void CompositeBy(const PacketOptics& optics, const std::vector<float>& cell_values,
                  const Walk& walk) {
-  const float* const values = cell_values.empty() ? nullptr : cell_values.data();
-  // Rays end where the closed form looks no further.
-  const float enough = std::max(optics.early_termination, optics::kInvisible);
   if (optics.classified != nullptr)
-    return WithTable(optics.classified->pieces.pieces, [&](const auto& table) {
-      ClassifiedConsumer<std::decay_t<decltype(table)>> consumer{*optics.classified, table, values,
-                                                                 enough, optics.colors};
-      walk(consumer);
-      consumer.count();
-    });
-  WithTable(optics.volume->pieces, [&](const auto& table) {
-    VolumeConsumer<std::decay_t<decltype(table)>> consumer{*optics.volume, table, values, enough,
-                                                           optics.colors};
-    walk(consumer);
-  });
+    CompositeClassified(optics, cell_values, walk);
+  else
+    CompositeVolume(optics, cell_values, walk);
 }
 
 }  // namespace HWY_NAMESPACE

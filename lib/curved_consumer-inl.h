@@ -28,15 +28,15 @@ HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-// VolumeConsumer with kInner scalars inside of each cell.
-template <std::size_t kInner, class Mesh, class Pieces>
-struct CurvedConsumer : VolumeConsumer<Pieces> {
+// VolumeConsumer that knows the scalar inside of each cell.
+template <class Mesh, class Pieces>
+struct InnerConsumer : VolumeConsumer<Pieces> {
   using Base = VolumeConsumer<Pieces>;
 
   InnerLanes<Mesh> inside;
   float tolerance;
 
-  CurvedConsumer(const Base& linear, const Mesh& mesh, int axis, float off_by)
+  InnerConsumer(const Base& linear, const Mesh& mesh, int axis, float off_by)
       : Base(linear), inside(mesh, axis), tolerance(off_by) {}
 
   void begin(std::size_t packet, std::size_t lane, const PacketStart& start) {
@@ -44,6 +44,15 @@ struct CurvedConsumer : VolumeConsumer<Pieces> {
     inside.begin(packet, lane, start);
   }
   HWY_INLINE void ends_at(std::size_t packet, VF z) { inside.ends_at(packet, z); }
+};
+
+// With kInner scalars inside of each cell.
+template <std::size_t kInner, class Mesh, class Pieces>
+struct CurvedConsumer : InnerConsumer<Mesh, Pieces> {
+  using Base = VolumeConsumer<Pieces>;
+  using InnerConsumer<Mesh, Pieces>::InnerConsumer;
+  using InnerConsumer<Mesh, Pieces>::inside;
+  using InnerConsumer<Mesh, Pieces>::tolerance;
 
   // Not inlined: it is long, and walks have several copies of where it is called.
   HWY_NOINLINE MF visit(std::size_t packet, MF active, VF length, VF s_in, VF s_out, VU cells) {
@@ -59,22 +68,13 @@ struct CurvedConsumer : VolumeConsumer<Pieces> {
   }
 };
 
-// VolumeConsumer with cubics that follow the scalar inside of each cell (ScalarOrder::adaptive).
+// With cubics that follow the scalar inside of each cell (ScalarOrder::adaptive).
 template <class Mesh, class Pieces>
-struct AdaptiveConsumer : VolumeConsumer<Pieces> {
+struct AdaptiveConsumer : InnerConsumer<Mesh, Pieces> {
   using Base = VolumeConsumer<Pieces>;
-
-  InnerLanes<Mesh> inside;
-  float tolerance;
-
-  AdaptiveConsumer(const Base& linear, const Mesh& mesh, int axis, float off_by)
-      : Base(linear), inside(mesh, axis), tolerance(off_by) {}
-
-  void begin(std::size_t packet, std::size_t lane, const PacketStart& start) {
-    Base::begin(packet, lane, start);
-    inside.begin(packet, lane, start);
-  }
-  HWY_INLINE void ends_at(std::size_t packet, VF z) { inside.ends_at(packet, z); }
+  using InnerConsumer<Mesh, Pieces>::InnerConsumer;
+  using InnerConsumer<Mesh, Pieces>::inside;
+  using InnerConsumer<Mesh, Pieces>::tolerance;
 
   HWY_NOINLINE MF visit(std::size_t packet, MF active, VF length, VF s_in, VF s_out, VU cells) {
     MF done = hn::MaskFromVec(hn::Zero(DF()));

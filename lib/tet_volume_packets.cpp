@@ -10,10 +10,10 @@ HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-void CompositeTet(const WalkableTets& mesh, const PacketOptics& optics, int axis,
-                  PacketFeeder& feeder) {
-  CompositeBy(optics, mesh.cell_values,
-              [&](auto& consumer) { Walk(mesh, axis, consumer, feeder); });
+void CompositeTetVolume(const WalkableTets& mesh, const PacketOptics& optics, int axis,
+                        PacketFeeder& feeder) {
+  CompositeVolume(optics, mesh.cell_values,
+                  [&](auto& consumer) { Walk(mesh, axis, consumer, feeder); });
 }
 
 }  // namespace HWY_NAMESPACE
@@ -23,11 +23,14 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace plume {
 
-HWY_EXPORT(CompositeTet);
+HWY_EXPORT(CompositeTetVolume);
 
 void composite_packets(const WalkableTets& mesh, const PacketOptics& optics, int axis,
                        PacketFeeder& feeder) {
-  HWY_DYNAMIC_DISPATCH(CompositeTet)(mesh, optics, axis, feeder);
+  if (optics.classified != nullptr)
+    composite_classified(mesh, optics, axis, feeder);
+  else
+    HWY_DYNAMIC_DISPATCH(CompositeTetVolume)(mesh, optics, axis, feeder);
 }
 
 }  // namespace plume

@@ -71,6 +71,10 @@ struct PacketOptics {
 /// turns back in).
 void composite_packets(const WalkableTets& mesh, const PacketOptics& optics, int axis,
                        PacketFeeder& feeder);
+/// composite_packets() where there is a classification: compiled by itself, as tetrahedra have most
+/// forms.
+void composite_classified(const WalkableTets& mesh, const PacketOptics& optics, int axis,
+                          PacketFeeder& feeder);
 void composite_packets(const WalkableGrid& mesh, const PacketOptics& optics, int axis,
                        PacketFeeder& feeder);
 void composite_packets(const WalkableCells& mesh, const PacketOptics& optics, int axis,

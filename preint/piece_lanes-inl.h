@@ -78,7 +78,7 @@ class PermutedTable {
 HWY_INLINE VF AnchorOf(const Record& range) {
 #if HWY_TARGET == HWY_SSE4 || HWY_TARGET <= HWY_AVX2 && HWY_ARCH_X86
   return hn::IfNegativeThenElse(range.d, range.b, range.a);
-#else  // which Highway 1.0.3 has wrong for SSSE3, where it takes bits of the sign for a mask
+#else
   const VF sign = hn::BitCast(DF(), hn::BroadcastSignBit(hn::BitCast(DI(), range.d)));
   return hn::IfThenElse(hn::MaskFromVec(sign), range.b, range.a);
 #endif

@@ -36,7 +36,6 @@ namespace HWY_NAMESPACE {
 class CellSteps {
  public:
   using Start = CellStart;
-  static constexpr bool kInRegisters = false;
 
   // `from` is the face by which the ray came in, of the cell's six; where that is kNoCorners,
   // `face` says which of all.

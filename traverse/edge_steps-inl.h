@@ -32,7 +32,6 @@ namespace HWY_NAMESPACE {
 class EdgeSteps {
  public:
   using Start = CellStart;
-  static constexpr bool kInRegisters = false;
 
   struct State : LaneState {
     HWY_ALIGN std::uint32_t cell[kMaxLanes];

@@ -39,7 +39,6 @@ namespace HWY_NAMESPACE {
 class GridSteps {
  public:
   using Start = GridStart;
-  static constexpr bool kInRegisters = false;
 
   using State = GridState;
   template <bool kMeasure>

@@ -270,8 +270,15 @@ using LanesLinks = LinkEach;
 
 // Asks for what lies at base + 2 * pairs[lane].
 HWY_INLINE void Prefetch(const float* base, const std::uint32_t* pairs) {
-  for (std::size_t lane = 0; lane < hn::Lanes(DF()); ++lane)
-    hwy::Prefetch(base + 2 * static_cast<std::size_t>(pairs[lane]));
+#if HWY_TARGET == HWY_SCALAR
+  hwy::Prefetch(base + 2 * static_cast<std::size_t>(pairs[0]));
+#else
+  for (std::size_t lane = 0; lane < hn::Lanes(DF()); lane += 2) {
+    const TwoNumbers two = LoadTwo(pairs + lane);
+    hwy::Prefetch(base + 2 * two.first);
+    hwy::Prefetch(base + 2 * two.second);
+  }
+#endif
 }
 
 }  // namespace HWY_NAMESPACE

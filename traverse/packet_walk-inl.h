@@ -32,17 +32,12 @@ HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-// Packets that take turns; on meshes larger than the caches, where they ask ahead, some 64 rays on
-// their way. (Counting cells, AVX-512 on 50 million: 3.06 times the benchmarks' baseline with 4
-// packets, 2.90 with 8. AVX2 on 10 million: 3.4 with 8 that ask ahead, 2.9 with 4 that do not.)
+// Packets that take turns, and where they ask ahead.
 constexpr std::size_t kPackets = 4;
-constexpr std::size_t kLargePackets = HWY_TARGET <= HWY_AVX3 ? 4 : 8;
-// Through compact cells, where a point can be asked for only once its cell has come (AVX-512 on 50
-// million cells: 3.99 times with 4, 4.50 with 6, 4.20 with 8).
-constexpr std::size_t kCompactPackets = HWY_TARGET <= HWY_AVX3 ? 6 : 8;
-constexpr std::size_t kMaxPackets = HWY_TARGET <= HWY_AVX3 ? 6 : 8;
-static_assert(kPackets <= kMaxPackets && kLargePackets <= kMaxPackets &&
-              kCompactPackets <= kMaxPackets && kMaxPackets * kMaxLanes <= kMaxPacketLanes);
+constexpr std::size_t kAheadPackets = 8;
+constexpr std::size_t kMaxPackets = 8;
+static_assert(kPackets <= kMaxPackets && kAheadPackets <= kMaxPackets &&
+              kMaxPackets * kMaxLanes <= kMaxPacketLanes);
 
 // What a packet's lanes are given, as arrays, so that a lane can be given another ray.
 struct LaneState {
@@ -149,20 +144,24 @@ class AskedLanes {
   HWY_ALIGN float z_[kMaxLanes], s_[kMaxLanes], left_[kMaxLanes];
 };
 
-// Points in the lanes' sheared frames: ShearedFrame's operator(). `axis` is the rays' longest axis,
-// the same for all lanes.
 struct ShearedLanes {
   VF x, y, z, s;
 };
+// Points turned so that z is along `axis`, the rays' longest, the same for all lanes.
+HWY_INLINE ShearedLanes Turned(const FourFloats& point, int axis) {
+  const VF x = axis == 0 ? point.b : axis == 1 ? point.c : point.a;
+  const VF y = axis == 0 ? point.c : axis == 1 ? point.a : point.b;
+  const VF z = axis == 0 ? point.a : axis == 1 ? point.b : point.c;
+  return {x, y, z, point.d};
+}
+// Points in the lanes' sheared frames: ShearedFrame's operator().
 HWY_INLINE ShearedLanes Shear(const FourFloats& point, int axis, const LaneState& state) {
   const DF d;
-  const VF px = axis == 0 ? point.b : axis == 1 ? point.c : point.a;
-  const VF py = axis == 0 ? point.c : axis == 1 ? point.a : point.b;
-  const VF pz = axis == 0 ? point.a : axis == 1 ? point.b : point.c;
+  const ShearedLanes p = Turned(point, axis);
   return {
-      hn::Sub(hn::Sub(px, hn::Load(d, state.offset_x)), hn::Mul(hn::Load(d, state.slope_x), pz)),
-      hn::Sub(hn::Sub(py, hn::Load(d, state.offset_y)), hn::Mul(hn::Load(d, state.slope_y), pz)),
-      pz, point.d};
+      hn::Sub(hn::Sub(p.x, hn::Load(d, state.offset_x)), hn::Mul(hn::Load(d, state.slope_x), p.z)),
+      hn::Sub(hn::Sub(p.y, hn::Load(d, state.offset_y)), hn::Mul(hn::Load(d, state.slope_y), p.z)),
+      p.z, p.s};
 }
 
 // x * y - z * w without the cancellation that single precision would suffer: the error is below two
@@ -195,16 +194,14 @@ HWY_INLINE unsigned BitsOf(MF mask) {
 // them, and shows the consumer what was left. So a turn takes no longer because one of its segments
 // does.
 //
-// With kPrefetch, what a packet needs next is asked for as soon as it is known: that costs as many
-// instructions as the loads themselves, and pays where they go beyond the caches.
+// With kPrefetch, what a packet needs next is asked for as soon as it is known, which is when all
+// others have had their turns.
 //
 // `Steps` is what the cells are:
 //     Start; State, derived from LaneState; Packet<kMeasure>, derived from SegmentStart: what
-//     changes with every step, in registers as far as there are any, with Load(state) and
-//     Store(state);
+//     changes with every step, with Load(state) and Store(state);
 //     Put(state, lane, start); PutNothing(state, lane): a place from which a lane without a ray may
 //     go on and on, not looked at;
-//     kInRegisters: whether packets are so small that it is worth a copy of the step for each;
 //     Cells(state, packet): the numbers of the cells that the lanes are in;
 //     Step(state, packet): to the next cell; Prefetch(state);
 //     kMayWait: whether there is StepUnless(waits, state, packet), by which lanes whose bit is set
@@ -223,7 +220,6 @@ class PacketWalk {
   void run() {
     for (std::size_t packet = 0; packet < kCount; ++packet)
       for (std::size_t lane = 0; lane < hn::Lanes(DF()); ++lane) give_ray(packet, lane);
-    if constexpr (Steps::kInRegisters) return run(std::make_index_sequence<kCount>());
     Packet packets[kCount];
     for (std::size_t place = 0; place < kCount; ++place) packets[place].Load(states_[place]);
     while (rays_ > 0)
@@ -232,14 +228,6 @@ class PacketWalk {
   }
 
  private:
-  // Places of packets are constants here, so that packets can be in registers.
-  template <std::size_t... kPlace>
-  void run(std::index_sequence<kPlace...>) {
-    Packet packets[kCount];
-    (packets[kPlace].Load(states_[kPlace]), ...);
-    while (rays_ > 0) (turn(kPlace, packets[kPlace], packets[(kPlace + 1) % kCount]), ...);
-  }
-
   HWY_INLINE void turn(std::size_t place, Packet& packet, Packet& next) {
     const DF d;
     const DU du;

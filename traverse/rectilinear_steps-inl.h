@@ -37,7 +37,6 @@ template <bool kAhead>
 class RectilinearSteps {
  public:
   using Start = RectilinearStart;
-  static constexpr bool kInRegisters = false;
 
   struct State : LaneState {
     HWY_ALIGN double t_next[3][kMaxLanes];          // where the ray crosses the plane ahead
@@ -261,7 +260,7 @@ void Walk(const WalkableRectilinear& mesh, Consumer& consumer, PacketFeeder& fee
   constexpr std::size_t kLargeMesh = 500000;  // values
   auto walk = [&]<bool kAhead>() {
     const RectilinearSteps<kAhead> steps(mesh);
-    PacketWalk<RectilinearSteps<kAhead>, kAhead ? kLargePackets : kPackets, kAhead, Consumer>(
+    PacketWalk<RectilinearSteps<kAhead>, kAhead ? kAheadPackets : kPackets, kAhead, Consumer>(
         steps, consumer, feeder)
         .run();
   };

@@ -37,7 +37,6 @@ template <int kAxis, TetReads kReads>
 class TetSteps {
  public:
   using Start = TetStart;
-  static constexpr bool kInRegisters = true;
   static constexpr bool kMayWait = true;
   static constexpr bool kCompact = kReads == TetReads::compact;
 
@@ -109,10 +108,10 @@ class TetSteps {
     return hn::ShiftRight<kShift>(hn::Load(DU(), state.cells));
   }
 
+  // Points are asked for by so many cells that they mostly are at hand.
   HWY_INLINE void Prefetch(const State& state) const {
-    if constexpr (kCompact) return HWY_NAMESPACE::Prefetch(compact_cells(), state.cells);
-    HWY_NAMESPACE::Prefetch(reinterpret_cast<const float*>(mesh_.cells.data()), state.cells);
-    HWY_NAMESPACE::Prefetch(points_, state.apex_by_2);
+    const auto* const whole = reinterpret_cast<const float*>(mesh_.cells.data());
+    HWY_NAMESPACE::Prefetch(kCompact ? compact_cells() : whole, state.cells);
   }
 
   template <bool kMeasure>
@@ -297,23 +296,20 @@ HWY_INLINE void WithAxis(int axis, const WalkAlong& walk) {
   }
 }
 
-// Walks all rays of `feeder`, whose longest axis is `axis`; more packets with prefetching on meshes
-// that are larger than the caches.
+// Walks all rays of `feeder`, whose longest axis is `axis`.
 template <class Consumer>
 void Walk(const WalkableTets& mesh, int axis, Consumer& consumer, PacketFeeder& feeder) {
   constexpr std::size_t kLargeMesh = 500000;  // cells
-  auto walk_by = [&]<int kAxis, TetReads kReads, std::size_t kCount>() {
+  auto walk_by = [&]<int kAxis, TetReads kReads>() {
     using Steps = TetSteps<kAxis, kReads>;
-    constexpr bool kPrefetch = kReads != TetReads::cached;
-    PacketWalk<Steps, kCount, kPrefetch, Consumer>(Steps(mesh), consumer, feeder).run();
+    PacketWalk<Steps, kAheadPackets, true, Consumer>(Steps(mesh), consumer, feeder).run();
   };
   auto walk = [&]<int kAxis>() {
-    if (mesh.is_compact())
-      walk_by.template operator()<kAxis, TetReads::compact, kCompactPackets>();
-    else if (mesh.cell_count() < kLargeMesh)
-      walk_by.template operator()<kAxis, TetReads::cached, kPackets>();
-    else
-      walk_by.template operator()<kAxis, TetReads::large, kLargePackets>();
+    if (mesh.is_compact()) return walk_by.template operator()<kAxis, TetReads::compact>();
+    if constexpr (!std::is_same_v<LanesLinks, LinkEach>)
+      if (mesh.cell_count() < kLargeMesh)
+        return walk_by.template operator()<kAxis, TetReads::cached>();
+    walk_by.template operator()<kAxis, TetReads::large>();
   };
   WithAxis(axis, walk);
 }

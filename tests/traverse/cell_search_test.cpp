@@ -245,7 +245,7 @@ TEST(CellSearch, DeclinesFewRaysOfAPicture) {
 TEST(CellSearch, IsTheSameOnEveryInstructionSet) {
   const auto mesh = generate("box-tetrahedra", {12, 0.2, 7});
   const auto traced = trace_as_tets(mesh);
-  for (const std::int64_t set : {HWY_AVX3, HWY_AVX2, HWY_SSE4, HWY_SSSE3}) {
+  for (const std::int64_t set : {HWY_AVX3, HWY_AVX2, HWY_SSE4}) {
     if ((hwy::SupportedTargets() & set) == 0) continue;
     limit_packet_instruction_sets(set);
     Tally tally;
