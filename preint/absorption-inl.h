@@ -128,11 +128,9 @@ struct Absorption {
   VF taken;  // 1 - exp(-m)
   VF chi;
 };
-// For m in [0, 2], |d| <= m. Which polynomials a lane is given depends on that lane alone: a ray
-// looks the same whatever rays share its packet. `any_farther`: whether any m is above kNear.
-HWY_INLINE Absorption Absorb(VF m, VF difference, bool any_farther) {
+// Where some m are above kNear. Not inlined: the less code a step has, the better.
+inline HWY_NOINLINE Absorption AbsorbFarther(VF m, VF difference) {
   const DF d;
-  if (HWY_LIKELY(!any_farther)) return {AbsorbedNear(m), ChiNear(m, difference)};
   const MF farther = hn::Gt(m, hn::Set(d, kNear));
   const MF far = hn::Gt(m, hn::Set(d, 1.0f));
   Absorption absorption{Absorbed(m), Chi(m, difference)};
@@ -145,6 +143,13 @@ HWY_INLINE Absorption Absorb(VF m, VF difference, bool any_farther) {
                   hn::IfThenElse(far, ChiFarther(m, difference), absorption.chi)};
   }
   return absorption;
+}
+
+// For m in [0, 2], |d| <= m. Which polynomials a lane is given depends on that lane alone: a ray
+// looks the same whatever rays share its packet. `any_farther`: whether any m is above kNear.
+HWY_INLINE Absorption Absorb(VF m, VF difference, bool any_farther) {
+  if (HWY_LIKELY(!any_farther)) return {AbsorbedNear(m), ChiNear(m, difference)};
+  return AbsorbFarther(m, difference);
 }
 
 }  // namespace optics

@@ -81,7 +81,12 @@ class CellSteps {
     return packet.cell;
   }
 
-  HWY_INLINE void Prefetch(const State&) const {}
+  template <bool kMeasure>
+  HWY_INLINE void Prefetch(const State&, const Packet<kMeasure>& packet) const {
+    HWY_ALIGN std::uint32_t pairs[kMaxLanes];
+    hn::Store(hn::ShiftLeft<3>(packet.cell), DU(), pairs);
+    HWY_NAMESPACE::Prefetch(reinterpret_cast<const float*>(cells_), pairs);
+  }
 
   template <bool kMeasure>
   HWY_INLINE StepResult Step(State& state, Packet<kMeasure>& packet) const {
@@ -302,7 +307,8 @@ void Walk(const WalkableCells& mesh, int axis, Consumer& consumer, PacketFeeder&
   if (mesh.corner_cells.empty())
     PacketWalk<EdgeSteps, kPackets, false, Consumer>(EdgeSteps(mesh, axis), consumer, feeder).run();
   else
-    PacketWalk<CellSteps, kPackets, false, Consumer>(CellSteps(mesh, axis), consumer, feeder).run();
+    PacketWalk<CellSteps, kAheadPackets, true, Consumer>(CellSteps(mesh, axis), consumer, feeder)
+        .run();
 }
 
 }  // namespace HWY_NAMESPACE

@@ -60,8 +60,6 @@ class EdgeSteps {
     return hn::Load(DU(), state.cell);
   }
 
-  HWY_INLINE void Prefetch(const State&) const {}
-
   template <bool kMeasure>
   HWY_INLINE StepResult Step(State& state, SegmentStart<kMeasure>&) const {
     const DF d;

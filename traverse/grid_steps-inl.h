@@ -68,10 +68,6 @@ class GridSteps {
     return directions_.CellAt(packet.index);
   }
 
-  HWY_INLINE void Prefetch(const State& state) const {
-    for (const auto& corner : state.back_by_2) HWY_NAMESPACE::Prefetch(points_, corner);
-  }
-
   template <bool kMeasure>
   HWY_INLINE StepResult Step(State& state, Packet<kMeasure>& packet) const {
     const DF d;

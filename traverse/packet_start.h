@@ -59,9 +59,9 @@ inline void set_start(TetStart& start, const WalkableTets& mesh, const ShearedFr
   start.corners[1] = b;
   start.corners[2] = c;
   for (std::size_t i = 0; i < 3; ++i) start.ids[i] = face.loop[i];
-  start.right[0] = crossing(b, c) != 0;
-  start.right[1] = crossing(c, a) != 0;
-  start.right[2] = crossing(a, b) != 0;
+  start.right[0] = crossing_unbranched(b, c) != 0;
+  start.right[1] = crossing_unbranched(c, a) != 0;
+  start.right[2] = crossing_unbranched(a, b) != 0;
   start.cell = face.cell;
   start.apex = face.apex;
 }

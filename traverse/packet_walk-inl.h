@@ -203,7 +203,7 @@ HWY_INLINE unsigned BitsOf(MF mask) {
 //     Put(state, lane, start); PutNothing(state, lane): a place from which a lane without a ray may
 //     go on and on, not looked at;
 //     Cells(state, packet): the numbers of the cells that the lanes are in;
-//     Step(state, packet): to the next cell; Prefetch(state);
+//     Step(state, packet): to the next cell; Prefetch(state, packet);
 //     kMayWait: whether there is StepUnless(waits, state, packet), by which lanes whose bit is set
 //     stay where they are, and where they crossed the last face.
 template <class Steps, std::size_t kCount, bool kPrefetch, class Consumer>
@@ -253,7 +253,7 @@ class PacketWalk {
     } else {
       step = steps_.Step(state, packet);
     }
-    if constexpr (kPrefetch) steps_.Prefetch(state);
+    if constexpr (kPrefetch) steps_.Prefetch(state, packet);
     MF ended = step.left;
     if constexpr (Consumer::kMeasure) {
       // Where cells overlap a ray would have to go back; it waits instead.

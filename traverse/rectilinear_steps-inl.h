@@ -112,7 +112,8 @@ class RectilinearSteps {
   }
 
   // Near the grid's end, where rays leave, some ask for what nobody needs.
-  HWY_INLINE void Prefetch(const State& state) const {
+  template <bool kMeasure>
+  HWY_INLINE void Prefetch(const State& state, const Packet<kMeasure>&) const {
     if (values_ == nullptr) return;
     for (const auto& points : state.ahead)
       for (std::size_t lane = 0; lane < hn::Lanes(DF()); ++lane)

@@ -109,7 +109,8 @@ class TetSteps {
   }
 
   // Points are asked for by so many cells that they mostly are at hand.
-  HWY_INLINE void Prefetch(const State& state) const {
+  template <bool kMeasure>
+  HWY_INLINE void Prefetch(const State& state, const Packet<kMeasure>&) const {
     const auto* const whole = reinterpret_cast<const float*>(mesh_.cells.data());
     HWY_NAMESPACE::Prefetch(kCompact ? compact_cells() : whole, state.cells);
   }

@@ -1,6 +1,5 @@
 #include "plume/tests/bench/bench_views.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -31,30 +30,8 @@ std::optional<Entry> same_way_in(const WalkableGrid& grid, const ShearedFrame& f
   return found;
 }
 
-struct PixelPlace {
-  std::uint32_t x, y;
-};
-
-// Those of one tile of 32 x 32 pixels in so many.
-std::vector<PixelPlace> places_of(int resolution, std::uint64_t tiles, RayOrder order) {
-  const auto width = static_cast<std::uint32_t>(resolution);
-  std::uint64_t side = 1;
-  while (side < width) side *= 2;
-  std::vector<PixelPlace> places;
-  for (std::uint64_t place = 0; place < side * side; ++place) {
-    const std::uint32_t x = even_bits(place), y = even_bits(place >> 1);
-    if (place / (32 * 32) % tiles == 0 && x < width && y < width) places.push_back({x, y});
-  }
-  if (order == RayOrder::rows)
-    std::sort(places.begin(), places.end(), [](const PixelPlace& a, const PixelPlace& b) {
-      return a.y != b.y ? a.y < b.y : a.x < b.x;
-    });
-  return places;
-}
-
 template <class Walker>
-std::vector<BenchView> views_through(const BenchMesh& mesh, const std::vector<PixelPlace>& places,
-                                     int resolution) {
+std::vector<BenchView> views_through(const BenchMesh& mesh, int resolution, std::uint64_t tiles) {
   const BoundaryIndex<Walker> boundary(form_of<typename Walker::Mesh>(mesh));
   std::vector<BenchView> views;
   for (const char* name : {"+x", "+y", "+z", "iso"}) {
@@ -62,7 +39,14 @@ std::vector<BenchView> views_through(const BenchMesh& mesh, const std::vector<Pi
     orbit(camera, 3, 2);
     const PixelRays pixel_rays(camera, resolution, resolution);
     std::vector<Ray> rays;
-    for (const PixelPlace& place : places) rays.push_back(pixel_rays(place.x + 0.5, place.y + 0.5));
+    std::uint64_t side = 1;
+    while (side < static_cast<std::uint64_t>(resolution)) side *= 2;
+    for (std::uint64_t place = 0; place < side * side; ++place) {
+      if (place / (32 * 32) % tiles != 0) continue;
+      const std::uint32_t x = even_bits(place), y = even_bits(place >> 1);
+      if (x < static_cast<std::uint32_t>(resolution) && y < static_cast<std::uint32_t>(resolution))
+        rays.push_back(pixel_rays(x + 0.5, y + 0.5));
+    }
     views.push_back(make_view(mesh, boundary, name, rays));
   }
   return views;
@@ -122,16 +106,14 @@ template BenchView make_view(const BenchMesh&, const BoundaryIndex<GridWalker>&,
 template BenchView make_view(const BenchMesh&, const BoundaryIndex<CellWalker>&, std::string,
                              const std::vector<Ray>&);
 
-std::vector<BenchView> make_views(const BenchMesh& mesh, int resolution, std::uint64_t tiles,
-                                  RayOrder order) {
-  const std::vector<PixelPlace> places = places_of(resolution, tiles, order);
+std::vector<BenchView> make_views(const BenchMesh& mesh, int resolution, std::uint64_t tiles) {
   switch (mesh.family) {
     case Family::tetrahedra:
-      return views_through<TetWalker>(mesh, places, resolution);
+      return views_through<TetWalker>(mesh, resolution, tiles);
     case Family::hexahedra:
-      return views_through<GridWalker>(mesh, places, resolution);
+      return views_through<GridWalker>(mesh, resolution, tiles);
     case Family::cells:
-      return views_through<CellWalker>(mesh, places, resolution);
+      return views_through<CellWalker>(mesh, resolution, tiles);
   }
   return {};
 }

@@ -20,13 +20,10 @@ struct Passage {
   Entry entry;
 };
 
-/// In which order a picture's rays are walked, one by one or in packets: along a Z-curve, where
-/// neighbours stay together, or row by row.
-enum class RayOrder { curve, rows };
-
 struct BenchView {
   std::string name;
-  /// Only rays that meet the mesh.
+  /// Only rays that meet the mesh, in the order of a Z-curve over the picture: neighbours stay
+  /// together, whether a walker takes them one by one or in packets.
   std::vector<Ray> rays;
   std::vector<Passage> passages;
   /// Of grids: where each passage comes in if faces are two triangles.
@@ -55,8 +52,7 @@ struct BenchView {
 ///
 /// Of the picture's tiles of 32 x 32 pixels, one in `tiles` is taken: less to walk, and rays that
 /// are as near to each other as in the whole picture.
-std::vector<BenchView> make_views(const BenchMesh& mesh, int resolution, std::uint64_t tiles = 1,
-                                  RayOrder order = RayOrder::curve);
+std::vector<BenchView> make_views(const BenchMesh& mesh, int resolution, std::uint64_t tiles = 1);
 
 /// One view of given rays. For TetWalker, GridWalker and CellWalker.
 template <class Walker>

@@ -9,13 +9,13 @@
 
 #include "hwy/targets.h"
 #include "plume/lib/volume_packets.h"
+#include "plume/traverse/frame_lanes.h"
 #include "plume/traverse/packets.h"
 
 namespace plume::bench {
 namespace {
 
-// Passages of one axis. Frames are made sixteen at a time, a lane's start when it is asked for, as
-// in a renderer.
+// Passages of one axis, set up sixteen at a time: a renderer sets up those of a tile.
 template <class Form>
 class PassageFeeder : public PacketFeeder {
  public:
@@ -24,32 +24,51 @@ class PassageFeeder : public PacketFeeder {
   // `t_in`, where it is not empty, is set to where each passage begins.
   PassageFeeder(const Form& form, const BenchView& view, const std::vector<std::uint32_t>& passages,
                 std::span<float> t_in)
-      : form_(form), view_(view), passages_(passages), t_in_(t_in) {}
+      : form_(form), view_(view), passages_(passages), t_in_(t_in) {
+    for (std::size_t place = 0; place < starts_.size(); ++place) free_.push_back(place);
+  }
 
   const PacketStart* next(const PacketStart* finished) override {
-    if (at_ == passages_.size()) return nullptr;
-    const std::uint32_t index = passages_[at_];
-    const Entry& entry = view_.passages[index].entry;
-    // A lane's place is free again when its ray has finished.
-    const std::size_t lane =
-        finished ? static_cast<std::size_t>(static_cast<const Start*>(finished) - starts_.data())
-                 : used_++;
-    frames_[lane].set(view_.rays[view_.passages[index].ray], form_.frame);
-    if (!t_in_.empty()) t_in_[index] = static_cast<float>(frames_[lane].t(entry.place.z));
-    set_start(starts_[lane], form_, frames_[lane], form_.boundary[entry.boundary], entry.place,
-              entry.rank, index);
-    ++at_;
-    return &starts_[lane];
+    if (finished != nullptr)
+      free_.push_back(static_cast<std::size_t>(static_cast<const Start*>(finished) - &starts_[0]));
+    if (ready_.empty()) set_up();
+    if (ready_.empty()) return nullptr;
+    const std::size_t place = ready_.back();
+    ready_.pop_back();
+    return &starts_[place];
   }
 
  private:
+  void set_up() {
+    const std::size_t count = std::min(passages_.size() - at_, FrameLanes::kRays);
+    const std::uint32_t* const numbers = passages_.data() + at_;
+    at_ += count;
+    RayLanes rays;
+    for (std::size_t i = 0; i < count; ++i) rays.add(view_.rays[view_.passages[numbers[i]].ray]);
+    FrameLanes frames;
+    frames.set(rays, form_.frame);
+    for (std::size_t i = count; i-- > 0;) {
+      const Entry& entry = view_.passages[numbers[i]].entry;
+      const std::size_t place = free_.back();
+      free_.pop_back();
+      ready_.push_back(place);
+      frames_[place] = frames.frame(i);
+      if (!t_in_.empty()) t_in_[numbers[i]] = static_cast<float>(frames_[place].t(entry.place.z));
+      set_start(starts_[place], form_, frames_[place], form_.boundary[entry.boundary], entry.place,
+                entry.rank, numbers[i]);
+    }
+  }
+
+  // Packets hold no more than kMaxPacketLanes at a time.
+  static constexpr std::size_t kPlaces = kMaxPacketLanes + FrameLanes::kRays;
+
   const Form& form_;
   const BenchView& view_;
   const std::vector<std::uint32_t>& passages_;
   const std::span<float> t_in_;
-  std::array<Start, kMaxPacketLanes> starts_;
-  std::array<ShearedFrame, kMaxPacketLanes> frames_;  // starts of grids refer to theirs
-  std::size_t used_ = 0;
+  std::array<Start, kPlaces> starts_;
+  std::array<ShearedFrame, kPlaces> frames_;  // starts of grids refer to theirs
+  std::vector<std::size_t> free_, ready_;
   std::size_t at_ = 0;
 };
 

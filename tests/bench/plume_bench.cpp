@@ -22,7 +22,6 @@ constexpr const char* kHelp = R"(plume_bench: how fast Plume is, as ratios withi
                  without, it takes some three minutes
   --rounds=N     how many times each is measured (3; with --all 5); medians are reported
   --resolution=N pixels along each side of a view, instead of what each mesh has
-  --rows         rays row by row, instead of along a Z-curve, which every walker likes better
   --table        ends with a plain table (beside the thesis' numbers: plume_papers)
   --benchmark_filter=REGEX, --benchmark_out=FILE, --benchmark_format=json, ...
                  Google Benchmark's own
@@ -44,8 +43,6 @@ int main(int argc, char** argv) {
     }
     if (argument == "--all")
       options.all = true;
-    else if (argument == "--rows")
-      options.order = plume::bench::RayOrder::rows;
     else if (argument == "--table")
       table = true;
     else if (argument.rfind("--rounds=", 0) == 0)

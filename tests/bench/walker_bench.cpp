@@ -31,7 +31,7 @@ class Bench {
     }
     const std::uint64_t tiles = options.all ? source.tiles : source.quick_tiles;
     const int resolution = options.resolution > 0 ? options.resolution : source.resolution;
-    views_ = make_views(*mesh_, resolution, tiles, options.order);
+    views_ = make_views(*mesh_, resolution, tiles);
     const Agreement agreement = drop_lost(*mesh_, views_);
     lost_ = agreement.different.size();
     std::size_t left_out = 0;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "plume/tests/bench/bench_meshes.h"
-#include "plume/tests/bench/bench_views.h"
 
 namespace plume::bench {
 
@@ -16,7 +15,6 @@ struct WalkerBenchOptions {
   int rounds = 3;
   /// Pixels along each side of a view; 0: as the mesh has them.
   int resolution = 0;
-  RayOrder order = RayOrder::curve;
 };
 
 struct WalkerResult {
