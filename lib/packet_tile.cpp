@@ -21,7 +21,7 @@ void PacketTile<Walker>::add(const RayLanes& rays) {
     if (size_ == rays_.size()) rays_.emplace_back();
     TileRay& added = rays_[size_++];
     added.ray = rays.ray(i);
-    added.frame = frames_.frame(i);
+    frames_.put(i, added.frame);
     added.all_entries.list() = found_[i];
     added.entries = 0;
     added.declined = added.waiting = false;

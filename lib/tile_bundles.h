@@ -47,7 +47,7 @@ class TileBundles {
         ray.place = places_[i];
         ray.ray = lanes_.ray(i);
         ray.valid = frames_.is_valid(i);
-        if (ray.valid) ray.frame = frames_.frame(i);
+        if (ray.valid) frames_.put(i, ray.frame);
       }
       begin = size_;
     };

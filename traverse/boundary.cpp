@@ -99,7 +99,10 @@ class SixteenRays {
   QueryRay<Walker> ray(const typename Walker::Mesh& mesh, std::size_t number) {
     auto& frame = frames_[number];
     auto& walker = walkers_[number];
-    if (!frame) walker.emplace(mesh, frame.emplace(lanes_.frame(number)));
+    if (!frame) {
+      lanes_.put(number, frame.emplace());
+      walker.emplace(mesh, *frame);
+    }
     return {&*walker, &*frame, nullptr, &found_[number]};
   }
 

@@ -203,19 +203,18 @@ void FrameLanes::set(const RayLanes& rays, const LocalFrame& local) {
   one_axis_ = all_or_none(axis_is_1_) && all_or_none(axis_is_2_);
 }
 
-ShearedFrame FrameLanes::frame(std::size_t i) const {
-  ShearedFrame frame;
+void FrameLanes::put(std::size_t i, ShearedFrame& frame) const {
   frame.set_axis(axis(i), arrays_.sign[i] > 0 ? 1 : -1);
   frame.line_ = {arrays_.slope_x[i], arrays_.slope_y[i], arrays_.offset_x[i], arrays_.offset_y[i]};
   frame.t_per_z_ = arrays_.t_per_z[i];
   frame.t_offset_ = arrays_.t_offset[i];
-  return frame;
 }
 
 void FrameLanes::lines(std::array<float*, 3> start, std::array<float*, 3> step) const {
   if (!one_axis_) {
     for (std::size_t i = 0; i < size_; ++i) {
-      const ShearedFrame one = frame(i);
+      ShearedFrame one;
+      put(i, one);
       const auto from = one.start(), along = one.step();
       for (std::size_t a = 0; a < 3; ++a) {
         start[a][i] = from[a];

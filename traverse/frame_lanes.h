@@ -42,8 +42,9 @@ class FrameLanes {
   std::size_t size() const { return size_; }
   /// False for what is no ray, as ShearedFrame::set() says.
   bool is_valid(std::size_t ray) const { return (valid_ >> ray & 1) != 0; }
-  /// Requires is_valid().
-  ShearedFrame frame(std::size_t ray) const;
+  /// Sets `frame` where it is: a copy of what was just written would wait for it. Requires
+  /// is_valid().
+  void put(std::size_t ray, ShearedFrame& frame) const;
   int axis(std::size_t ray) const {
     return (axis_is_2_ >> ray & 1) != 0 ? 2 : (axis_is_1_ >> ray & 1) != 0 ? 1 : 0;
   }

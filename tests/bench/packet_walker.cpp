@@ -45,6 +45,7 @@ class PassageFeeder : public PacketFeeder {
     at_ += count;
     RayLanes rays;
     for (std::size_t i = 0; i < count; ++i) rays.add(view_.rays[view_.passages[numbers[i]].ray]);
+    ask_for_more();
     FrameLanes frames;
     frames.set(rays, form_.frame);
     for (std::size_t i = count; i-- > 0;) {
@@ -52,10 +53,22 @@ class PassageFeeder : public PacketFeeder {
       const std::size_t place = free_.back();
       free_.pop_back();
       ready_.push_back(place);
-      frames_[place] = frames.frame(i);
+      frames.put(i, frames_[place]);
       if (!t_in_.empty()) t_in_[numbers[i]] = static_cast<float>(frames_[place].t(entry.place.z));
       set_start(starts_[place], form_, frames_[place], form_.boundary[entry.boundary], entry.place,
                 entry.rank, numbers[i]);
+    }
+  }
+
+  // A renderer makes its rays and finds their entries; here they come from memory.
+  void ask_for_more() const {
+    const std::size_t far = std::min(passages_.size(), at_ + 2 * FrameLanes::kRays);
+    for (std::size_t i = at_; i < far; ++i) {
+      const Passage* const passage = &view_.passages[passages_[i]];
+      if (i < at_ + FrameLanes::kRays)
+        __builtin_prefetch(&view_.rays[passage->ray]);
+      else
+        __builtin_prefetch(passage);
     }
   }
 

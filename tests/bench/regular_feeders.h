@@ -52,7 +52,7 @@ class HexahedraFeeder : public PacketFeeder {
       frames.set(lanes, mesh.frame);
       boundary.first_entries(frames, found);
       for (std::size_t i = begin; i < end; ++i) {
-        frames_[i] = frames.frame(i - begin);
+        frames.put(i - begin, frames_[i]);
         entries_[i] = found[i - begin];
       }
     }
