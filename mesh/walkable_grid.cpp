@@ -4,6 +4,7 @@
 #include <tbb/parallel_for.h>
 #include <tbb/parallel_reduce.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -49,27 +50,55 @@ bool is_planar_quad(const WalkablePoint& a, const WalkablePoint& b, const Walkab
   return std::abs(volume) <= kPlanar * std::hypot(normal[0], normal[1], normal[2]);
 }
 
-bool has_planar_faces(const WalkableGrid& grid) {
+// The cells from `low` to, but not including, `high` along each axis.
+struct IndexRange {
+  std::array<std::uint32_t, 3> low{kNone, kNone, kNone}, high{0, 0, 0};
+
+  void add(std::size_t axis, std::uint32_t from, std::uint32_t to) {
+    low[axis] = std::min(low[axis], from);
+    high[axis] = std::max(high[axis], to);
+  }
+  friend IndexRange operator+(IndexRange one, const IndexRange& other) {
+    for (std::size_t a = 0; a < 3; ++a) one.add(a, other.low[a], other.high[a]);
+    return one;
+  }
+};
+
+// See WalkableGrid::twisted.
+CellBox box_of_twisted_faces(const WalkableGrid& grid) {
   const std::array<std::uint32_t, 3>& n = grid.dimensions;
   const std::array<std::uint32_t, 3> step{1, n[0], n[0] * n[1]};
-  auto is_planar = [&](std::size_t p) {  // the faces whose lowest corner that is
+  // Adds the cells at the faces whose lowest corner that point is.
+  auto add_faces = [&](std::size_t p, IndexRange& range) {
     const std::array<std::size_t, 3> index{p % n[0], p / n[0] % n[1], p / n[0] / n[1]};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t b = (axis + 1) % 3, c = (axis + 2) % 3;
       if (index[b] + 1 == n[b] || index[c] + 1 == n[c]) continue;
       const WalkablePoint* const first = &grid.points[p];
-      if (!is_planar_quad(first[0], first[step[b]], first[step[b] + step[c]], first[step[c]]))
-        return false;
+      if (is_planar_quad(first[0], first[step[b]], first[step[b] + step[c]], first[step[c]]))
+        continue;
+      const auto at = static_cast<std::uint32_t>(index[axis]);
+      range.add(axis, at == 0 ? 0 : at - 1, std::min(at + 1, n[axis] - 1));
+      for (const std::size_t a : {b, c}) {
+        const auto cell = static_cast<std::uint32_t>(index[a]);
+        range.add(a, cell, cell + 1);
+      }
     }
-    return true;
   };
-  return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, grid.points.size()), true,
-      [&](const auto& range, bool planar) {
-        for (std::size_t p = range.begin(); planar && p != range.end(); ++p) planar = is_planar(p);
-        return planar;
+  const IndexRange all = tbb::parallel_reduce(
+      tbb::blocked_range<std::size_t>(0, grid.points.size()), IndexRange{},
+      [&](const auto& points, IndexRange range) {
+        for (std::size_t p = points.begin(); p != points.end(); ++p) add_faces(p, range);
+        return range;
       },
-      std::logical_and<>());
+      std::plus<IndexRange>());
+  CellBox box;
+  if (all.high[0] == 0) return box;
+  for (std::size_t a = 0; a < 3; ++a) {
+    box.first[a] = all.low[a];
+    box.size[a] = all.high[a] - all.low[a];
+  }
+  return box;
 }
 
 }  // namespace
@@ -113,7 +142,7 @@ WalkableGrid make_walkable_grid(const Mesh& mesh, const ScalarField& scalar, con
         });
   });
   if (!on_points) grid.cell_values = scalar.values;
-  grid.planar_faces = has_planar_faces(grid);
+  grid.twisted = box_of_twisted_faces(grid);
 
   Finding hidden{"hidden cells", 0, {}};
   const auto cells = static_cast<std::uint32_t>(grid.cell_count());

@@ -13,6 +13,17 @@
 
 namespace plume {
 
+/// A box of cells by their i, j and k.
+struct CellBox {
+  std::array<std::uint32_t, 3> first{0, 0, 0}, size{0, 0, 0};
+
+  bool holds(const std::array<std::uint32_t, 3>& index) const {
+    return index[0] - first[0] < size[0] && index[1] - first[1] < size[1] &&
+           index[2] - first[2] < size[2];
+  }
+  std::size_t cell_count() const { return std::size_t{size[0]} * size[1] * size[2]; }
+};
+
 /// 16 bytes a point and nothing a cell (one bit where cells are hidden). Cell (i, j, k) is
 /// i + ci * (j + cj * k) with ci = dimensions[0] - 1 and so on, as in the user's mesh.
 struct WalkableGrid {
@@ -25,9 +36,10 @@ struct WalkableGrid {
   std::vector<bool> hidden;
   /// The whole grid's handedness: i, j, k form a left-handed system.
   bool left_handed = false;
-  /// Whether all faces are planar: their corners are within kPlanar / 2 of a plane. Where some are
-  /// not, all are taken for twisted, which costs time, not precision.
-  bool planar_faces = false;
+  /// The smallest box of cells that holds both sides of every twisted face: one whose corners are
+  /// not within kPlanar / 2 of a plane. Empty where all are planar. Faces between two cells of it
+  /// (or at the grid's end) are taken for twisted, which costs time, not precision.
+  CellBox twisted;
   /// Every face without a visible cell behind it. Faces are numbered -i, +i, -j, +j, -k, +k.
   std::vector<BoundaryFace> boundary;
   std::vector<Finding> findings;
@@ -46,6 +58,14 @@ struct WalkableGrid {
   std::uint32_t first_point(std::uint32_t cell) const {
     const auto [i, j, k] = cell_index(cell);
     return i + dimensions[0] * (j + dimensions[1] * k);
+  }
+  /// Whether a face of the cell at this index is taken for planar: the same from both sides.
+  bool is_planar(const std::array<std::uint32_t, 3>& index, std::uint32_t face) const {
+    if (!twisted.holds(index)) return true;
+    const std::size_t axis = face / 2;
+    const std::uint32_t at = index[axis] - twisted.first[axis];
+    if (face % 2 == 0) return at == 0 && index[axis] != 0;
+    return at + 1 == twisted.size[axis] && index[axis] + 2 != dimensions[axis];
   }
   /// The visible cell behind a face, or kNone.
   std::uint32_t neighbor(std::uint32_t cell, std::uint32_t face) const;

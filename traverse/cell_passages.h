@@ -20,13 +20,13 @@ namespace plume {
 /// Calls visit(const CellCrossing&) for the crossings of a face of a cell, decided and measured by
 /// GridWalker's operations: the same bits. `corner` are the cell's, 0 to 7, where they are asked.
 template <class CornerAt, class Visit>
-void for_each_crossing_of(const WalkableGrid& mesh, int sign, std::uint32_t face,
-                          const CornerAt& corner, const Visit& visit) {
+void for_each_crossing_of(const WalkableGrid& mesh, int sign, std::uint32_t cell,
+                          std::uint32_t face, const CornerAt& corner, const Visit& visit) {
   const auto& loop = kCornerLoop[face];
   const ShearedPoint &a = corner(loop[0]), &b = corner(loop[1]);
   const ShearedPoint &c = corner(loop[2]), &d = corner(loop[3]);
   const Quad quad{a, b, c, d};
-  const bool planar = mesh.planar_faces;
+  const bool planar = mesh.is_planar(mesh.cell_index(cell), face);
   const int outwards = (face % 2 == 1) != mesh.left_handed ? sign : -sign;
   const QuadCrossings of_face = PlanarOrPatchFaces::crossings(quad, winding(quad), planar);
   for (std::uint32_t rank = 0; rank < 2; ++rank)
@@ -89,7 +89,7 @@ class CellPassages {
       for (std::uint32_t face = 0; face < 6; ++face)
         if (winding.may_be_crossed(face))
           for_each_crossing_of(
-              mesh_, frame.sign(), face,
+              mesh_, frame.sign(), cell, face,
               [&](std::size_t c) -> const ShearedPoint& { return corner[c]; }, add);
     } else {
       for (const std::uint32_t face : mesh_.faces_of(cell))
@@ -114,7 +114,7 @@ class CellPassages {
       for (const std::uint32_t c : kCornerLoop[face.face])
         corner[c] = frame(mesh_.points[first + (c & 1) + (c >> 1 & 1) * ni + (c >> 2) * nij]);
       for_each_crossing_of(
-          mesh_, frame.sign(), face.face,
+          mesh_, frame.sign(), face.cell, face.face,
           [&](std::size_t c) -> const ShearedPoint& { return corner[c]; }, visit);
     } else {
       for_each_crossing_of(mesh_, frame, face.cell, face.face, points_, visit);

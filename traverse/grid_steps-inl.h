@@ -36,6 +36,7 @@ namespace HWY_NAMESPACE {
 // number of its edges crosses y = 0 on the ray's right. The front does, so one of the back and the
 // sides does, or three, or all. The face left by is the next cell's front: corners and edges that
 // it keeps keep their places, so that its loop winds about the ray in the same direction.
+template <bool kTwisted>
 class GridSteps {
  public:
   using Start = GridStart;
@@ -45,11 +46,7 @@ class GridSteps {
   using Packet = GridPacket<kMeasure>;
 
   GridSteps(const WalkableGrid& mesh, int axis)
-      : mesh_(mesh),
-        points_(mesh.points.data()->position),
-        axis_(axis),
-        twisted_(!mesh.planar_faces),
-        directions_(mesh) {}
+      : mesh_(mesh), points_(mesh.points.data()->position), axis_(axis), directions_(mesh) {}
 
   void Put(State& state, std::size_t lane, const GridStart& start) const {
     state.put(lane, start);
@@ -70,11 +67,43 @@ class GridSteps {
 
   template <bool kMeasure>
   HWY_INLINE StepResult Step(State& state, Packet<kMeasure>& packet) const {
-    const DF d;
+    // Where a step has asked, the next one most likely asks as well.
+    if (HWY_UNLIKELY(state.asks)) return TakeAsking(state, packet);
+    return Take<false>(state, packet);
+  }
+
+ private:
+  static constexpr std::uint32_t kNowhere = 6;  // a direction in which nothing moves
+
+  auto Within(const VU (&index)[3], std::size_t axis) const {
     const DU du;
-    QuadLanes<kMeasure>& p = packet.front;
-    QuadLanes<kMeasure> q;
+    return hn::Lt(hn::Sub(index[axis], hn::Set(du, mesh_.twisted.first[axis])),
+                  hn::Set(du, mesh_.twisted.size[axis]));
+  }
+
+  // What lies behind the front, edge by edge and face by face.
+  template <bool kMeasure>
+  struct Behind {
+    QuadLanes<kMeasure> q;  // the back
+    // Whether edges between front and back, and of the back, cross y = 0, and on the right.
+    VF across[4], along[4], right_across[4], right_along[4];
+    VF side[4];  // whether side m winds an odd number of times
+    VF odd;      // the front
+    // A face has, or may have, two crossings.
+    VF doubtful;
+    // Lanes in which it is not clear by which face the ray leaves: the front winds an even number
+    // of times, or several sides wind, or a face is doubtful.
+    VF strange;
+  };
+
+  template <bool kExact, bool kMeasure>
+  HWY_INLINE void LookBehind(const State& state, const Packet<kMeasure>& packet,
+                             Behind<kMeasure>& behind) const {
+    const DF d;
+    const QuadLanes<kMeasure>& p = packet.front;
+    QuadLanes<kMeasure>& q = behind.q;
     VF flipped_x[4], flipped_y[4];
+    HWY_UNROLL(4)
     for (std::size_t m = 0; m < 4; ++m) {
       const ShearedLanes at = Shear(LoadFour(points_, state.back_by_2[m]), axis_, state);
       q.x[m] = at.x;
@@ -86,73 +115,104 @@ class GridSteps {
       flipped_y[m] = hn::Abs(at.y);
       flipped_x[m] = hn::Xor(at.x, hn::And(at.y, hn::SignBit(d)));
     }
-    // Whether edges between front and back, and of the back, cross y = 0, and on the right (see
-    // TetSteps::Step).
-    auto side_of = [&](std::size_t m, VF x, VF y) {
+    // As TetSteps::Step.
+    auto side_of = [&](std::size_t m, VF x, VF y) HWY_ATTR {
       return hn::Sub(hn::MulAdd(flipped_x[m], y, hn::Zero(d)), hn::Mul(x, flipped_y[m]));
     };
-    VF across[4], along[4], right_across[4], right_along[4];
-    BackProducts products;
+    VF* const across = behind.across;
+    VF* const along = behind.along;
+    VF* const right_across = behind.right_across;
+    VF* const right_along = behind.right_along;
+    HWY_UNROLL(4)
     for (std::size_t m = 0; m < 4; ++m) {
       const std::size_t n = (m + 1) % 4;
-      const VF down = hn::And(q.y[m], hn::SignBit(d));
       const VF with_front = side_of(m, p.x[m], p.y[m]), with_next = side_of(m, q.x[n], q.y[n]);
-      products.with_front[m] = hn::Xor(with_front, down);
-      products.with_next[m] = hn::Xor(with_next, down);
       across[m] = hn::Xor(p.y[m], q.y[m]);
       along[m] = hn::Xor(q.y[n], q.y[m]);
       right_across[m] = hn::And(with_front, across[m]);
       right_along[m] = hn::And(with_next, along[m]);
     }
     const VF* const right = packet.right;
-    VF side[4];  // whether side m winds an odd number of times
+    VF* const side = behind.side;
+    HWY_UNROLL(4)
     for (std::size_t m = 0; m < 4; ++m)
       side[m] = Xor3(right[m], right_across[m], hn::Xor(right_across[(m + 1) % 4], right_along[m]));
 
-    // Lanes in which it is not clear by which face the ray leaves: the front winds an even number
-    // of times, or several sides wind, or a face has, or may have, two crossings (`doubtful`).
     VF several = hn::And(side[0], side[1]);
     several = hn::Or(several, hn::And(hn::Or(side[0], side[1]), side[2]));
     several = hn::Or(several, hn::And(hn::Or(hn::Or(side[0], side[1]), side[2]), side[3]));
-    const VF odd = Xor3(right[0], right[1], hn::Xor(right[2], right[3]));
+    behind.odd = Xor3(right[0], right[1], hn::Xor(right[2], right[3]));
     VF before[4];  // the front's edges: do they cross y = 0?
+    HWY_UNROLL(4)
     for (std::size_t m = 0; m < 4; ++m) before[m] = hn::Xor(p.y[m], p.y[(m + 1) % 4]);
     VF doubtful = WindsTwice(along[0], along[1], along[2], right_along[0], right_along[1],
                              right_along[2], right_along[3]);
+    HWY_UNROLL(4)
     for (std::size_t m = 0; m < 4; ++m) {
       const std::size_t n = (m + 1) % 4;
       doubtful = hn::Or(doubtful, WindsTwice(before[m], across[n], along[m], right[m],
                                              right_across[n], right_along[m], right_across[m]));
     }
-    if (twisted_) {
-      // Faces with all corners on one side of y = 0 (or in one place) are not crossed.
-      const VF back_crosses = Or3(along[0], along[1], along[2]);
-      VF side_crosses[4];
+    if constexpr (kTwisted) {
+      FrontAndBack<kMeasure> cell{p, q, {}, {}};
+      auto settled = [&](VF odd, VF crosses0, VF crosses1, VF crosses2) HWY_ATTR {
+        return hn::Or(odd, hn::Not(Or3(crosses0, crosses1, crosses2)));
+      };
+      const VF back_odd = Xor3(behind.odd, hn::Xor(side[0], side[1]), hn::Xor(side[2], side[3]));
+      cell.back_settled = settled(back_odd, along[0], along[1], along[2]);
+      HWY_UNROLL(4)
       for (std::size_t m = 0; m < 4; ++m)
-        side_crosses[m] = Or3(before[m], across[(m + 1) % 4], along[m]);
-      doubtful =
-          hn::Or(doubtful, GrazedBehind(p, q, odd, side, products, back_crosses, side_crosses));
+        cell.side_settled[m] = settled(side[m], before[m], across[(m + 1) % 4], along[m]);
+      doubtful = hn::Or(doubtful, kExact ? cell.IsGrazed() : cell.MayBeGrazed());
+    } else if (mesh_.twisted.size[0] != 0) {
+      const auto inside = hn::And(hn::And(Within(packet.index, 0), Within(packet.index, 1)),
+                                  Within(packet.index, 2));
+      doubtful = hn::Or(doubtful, hn::VecFromMask(d, hn::RebindMask(d, inside)));
     }
-    const VF strange = Or3(several, hn::Not(odd), doubtful);
+    behind.doubtful = doubtful;
+    behind.strange = Or3(several, hn::Not(behind.odd), doubtful);
+  }
+
+  // A step where strange lanes ask here, or the same once more in a function that does: what only
+  // they need would be written to memory by every step.
+  template <bool kAsks, bool kMeasure>
+  HWY_INLINE StepResult Take(State& state, Packet<kMeasure>& packet) const {
+    const DF d;
+    const DU du;
+    Behind<kMeasure> behind;
+    LookBehind<kAsks>(state, packet, behind);
+    QuadLanes<kMeasure>& p = packet.front;
+    QuadLanes<kMeasure>& q = behind.q;
+    const VF* const right = packet.right;
+    VF(&side)[4] = behind.side;
+    VF(&right_across)[4] = behind.right_across;
+    VF(&right_along)[4] = behind.right_along;
 
     StepResult result;
     result.left = hn::MaskFromVec(hn::Zero(d));
     MF measured = result.left;
     const VU opposite = hn::Set(du, 1);
-    if (HWY_UNLIKELY((BitsOf(MaskOfBits(strange)) & state.live) != 0)) {
-      const VF others = Or3(hn::Or(side[0], side[1]), hn::Or(side[2], side[3]), doubtful);
-      measured = GridQuestions(mesh_, directions_)
-                     .Decide(state, packet, strange, hn::Not(odd), hn::Not(hn::Or(odd, others)));
-      const VU exit = hn::Load(du, state.exit);
-      auto leaves_by = [&](VU face) {
-        return hn::VecFromMask(d, hn::RebindMask(d, hn::Eq(exit, face)));
-      };
-      const VU face[4] = {hn::Xor(packet.v, opposite), packet.u, packet.v,
-                          hn::Xor(packet.u, opposite)};
-      for (std::size_t m = 0; m < 4; ++m) side[m] = Choose(strange, leaves_by(face[m]), side[m]);
-      result.left = MaskOfBits(hn::And(strange, leaves_by(hn::Set(du, kNowhere))));
-      TurnAround(packet, hn::And(strange, leaves_by(hn::Xor(packet.ahead, opposite))), q,
-                 right_along);
+    const bool asks = (BitsOf(MaskOfBits(behind.strange)) & state.live) != 0;
+    if constexpr (kAsks) state.asks = asks;
+    if (HWY_UNLIKELY(asks)) {
+      if constexpr (!kAsks) {
+        return TakeAsking(state, packet);
+      } else {
+        const VF odd = behind.odd, strange = behind.strange;
+        const VF others = Or3(hn::Or(side[0], side[1]), hn::Or(side[2], side[3]), behind.doubtful);
+        measured = GridQuestions(mesh_, directions_)
+                       .Decide(state, packet, strange, hn::Not(odd), hn::Not(hn::Or(odd, others)));
+        const VU exit = hn::Load(du, state.exit);
+        auto leaves_by = [&](VU face) {
+          return hn::VecFromMask(d, hn::RebindMask(d, hn::Eq(exit, face)));
+        };
+        const VU face[4] = {hn::Xor(packet.v, opposite), packet.u, packet.v,
+                            hn::Xor(packet.u, opposite)};
+        for (std::size_t m = 0; m < 4; ++m) side[m] = Choose(strange, leaves_by(face[m]), side[m]);
+        result.left = MaskOfBits(hn::And(strange, leaves_by(hn::Set(du, kNowhere))));
+        TurnAround(packet, hn::And(strange, leaves_by(hn::Xor(packet.ahead, opposite))), q,
+                   right_along);
+      }
     }
 
     // The front of the next cell: the back, or side m, whose corners m and m + 1 stay.
@@ -160,11 +220,13 @@ class GridSteps {
                         hn::Or(side[1], side[2]), hn::Or(side[2], side[3])};
     auto next_corners = [&](VF(&front)[4], const VF(&back)[4]) {
       VF next[4];
+      HWY_UNROLL(4)
       for (std::size_t m = 0; m < 4; ++m) {
         const VF turned = Choose(side[(m + 1) % 4], back[(m + 1) % 4],
                                  Choose(side[(m + 2) % 4], back[(m + 3) % 4], back[m]));
         next[m] = Choose(stay[m], front[m], turned);
       }
+      HWY_UNROLL(4)
       for (std::size_t m = 0; m < 4; ++m) front[m] = next[m];
     };
     next_corners(p.x, q.x);
@@ -174,6 +236,7 @@ class GridSteps {
       next_corners(p.s, q.s);
     }
     VF next_right[4];
+    HWY_UNROLL(4)
     for (std::size_t m = 0; m < 4; ++m) {
       const std::size_t n = (m + 1) % 4, o = (m + 2) % 4, l = (m + 3) % 4;
       next_right[m] = Choose(side[m], right[m],
@@ -181,6 +244,7 @@ class GridSteps {
                                     Choose(side[o], right_along[o],
                                            Choose(side[l], right_across[m], right_along[m]))));
     }
+    HWY_UNROLL(4)
     for (std::size_t m = 0; m < 4; ++m) packet.right[m] = next_right[m];
 
     const VU u_by_2 = directions_.StrideBy2(packet.u);
@@ -207,8 +271,10 @@ class GridSteps {
       result.left = hn::Or(result.left, Hidden(state, packet, result.left));
     if constexpr (kMeasure) {
       const MF beside = MeasurePatch(p, hn::Load(d, state.winding), result.z, result.s);
-      result.z = hn::IfThenElse(measured, hn::Load(d, state.exit_z), result.z);
-      result.s = hn::IfThenElse(measured, hn::Load(d, state.exit_s), result.s);
+      if constexpr (kAsks) {
+        result.z = hn::IfThenElse(measured, hn::Load(d, state.exit_z), result.z);
+        result.s = hn::IfThenElse(measured, hn::Load(d, state.exit_s), result.s);
+      }
       const unsigned asking = BitsOf(hn::AndNot(measured, beside)) & state.live;
       if (HWY_UNLIKELY(asking != 0))
         GridQuestions(mesh_, directions_).MeasureAgain(state, packet, asking, result);
@@ -216,8 +282,11 @@ class GridSteps {
     return result;
   }
 
- private:
-  static constexpr std::uint32_t kNowhere = 6;  // a direction in which nothing moves
+  template <bool kMeasure>
+  HWY_NOINLINE StepResult TakeAsking(State& state, Packet<kMeasure>& packet) const {
+    return Take<true>(state, packet);
+  }
+
   // Lanes that have not left and are in a hidden cell now.
   template <bool kMeasure>
   HWY_NOINLINE MF Hidden(const State& state, const Packet<kMeasure>& packet, MF left) const {
@@ -259,14 +328,22 @@ class GridSteps {
   const WalkableGrid& mesh_;
   const float* points_;
   const int axis_;
-  const bool twisted_;
   const GridDirections directions_;
 };
 
 // Walks all rays of `feeder`, whose longest axis is `axis`.
 template <class Consumer>
 void Walk(const WalkableGrid& mesh, int axis, Consumer& consumer, PacketFeeder& feeder) {
-  PacketWalk<GridSteps, kPackets, false, Consumer>(GridSteps(mesh, axis), consumer, feeder).run();
+  // Where fewer cells than one in so many are near twisted faces.
+  constexpr std::size_t kFew = 32;
+  auto walk = [&](const auto& steps) {
+    PacketWalk<std::decay_t<decltype(steps)>, kPackets, false, Consumer>(steps, consumer, feeder)
+        .run();
+  };
+  if (kFew * mesh.twisted.cell_count() < mesh.cell_count())
+    walk(GridSteps<false>(mesh, axis));
+  else
+    walk(GridSteps<true>(mesh, axis));
 }
 
 }  // namespace HWY_NAMESPACE

@@ -38,7 +38,7 @@ class BasicGridWalker {
     const std::uint32_t first = mesh_.first_point(boundary.cell);
     std::array<ShearedPoint, 4> p;
     const Quad quad = corners_of(first, boundary.face, p);
-    const bool planar = is_planar();
+    const bool planar = is_planar(mesh_.cell_index(boundary.cell), boundary.face);
     const QuadCrossings crossings = Faces::crossings(quad, winding(quad), planar);
     for (std::uint32_t rank = 0; rank < 2; ++rank)
       if (outwards(boundary.face) * crossings.direction[rank] < 0)
@@ -83,7 +83,7 @@ class BasicGridWalker {
     }
     const std::uint32_t grazed = first_grazed(winding, quad);
     if (count != 2 || grazed < 6) return leave_one_of_several(winding, quad, grazed, excursion);
-    const bool planar = is_planar();
+    const bool planar = is_planar(index_, exit_face);
     const Quad through = quad(exit_face);
     const QuadCrossings only = Faces::crossings(through, winding.of(exit_face), planar);
     const std::uint32_t rank = only.direction[0] == 0 ? 1 : 0;
@@ -95,7 +95,7 @@ class BasicGridWalker {
   Crossing crossing_of(std::uint32_t face) const {
     std::array<ShearedPoint, 4> p;
     const Quad quad = corners_of(first_, face, p);
-    const bool planar = is_planar();
+    const bool planar = is_planar(index_, face);
     const QuadCrossings only = Faces::crossings(quad, winding(quad), planar);
     return Faces::measure(quad, only, only.direction[0] == 0 ? 1 : 0, planar);
   }
@@ -124,10 +124,10 @@ class BasicGridWalker {
   // The first face that is crossed although its winding is 0, or 6.
   template <class QuadOf>
   std::uint32_t first_grazed(const HexahedronWindings& winding, const QuadOf& quad) const {
-    if (!Faces::kGrazed || is_planar()) return 6;
+    if (!Faces::kGrazed || (Faces::kAsksIfPlanar && !mesh_.twisted.holds(index_))) return 6;
     std::uint32_t f = 0;
     while (f < 6 && !(winding.of(f) == 0 && winding.may_be_crossed(f) &&
-                      Faces::crossings(quad(f), 0, false).grazed()))
+                      Faces::crossings(quad(f), 0, is_planar(index_, f)).grazed()))
       ++f;
     return f;
   }
@@ -140,7 +140,7 @@ class BasicGridWalker {
     std::size_t size = 0;
     for (std::uint32_t f = 0; f < 6; ++f) {
       if (!winding.may_be_crossed(f) || (winding.of(f) == 0 && f < grazed)) continue;
-      const bool planar = is_planar();
+      const bool planar = is_planar(index_, f);
       const QuadCrossings of_face = Faces::crossings(quad(f), winding.of(f), planar);
       for (std::uint32_t rank = 0; rank < 2; ++rank)
         if (of_face.direction[rank] != 0)
@@ -163,7 +163,9 @@ class BasicGridWalker {
     return (face % 2 == 1) != mesh_.left_handed ? frame_.sign() : -frame_.sign();
   }
 
-  bool is_planar() const { return Faces::kAsksIfPlanar && mesh_.planar_faces; }
+  bool is_planar(const std::array<std::uint32_t, 3>& index, std::uint32_t face) const {
+    return Faces::kAsksIfPlanar && mesh_.is_planar(index, face);
+  }
 
   Crossing left_through(std::uint32_t face, std::uint32_t rank, const Crossing& place) {
     face_ = face;

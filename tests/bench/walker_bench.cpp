@@ -46,8 +46,8 @@ class Bench {
         left_out > 0 ? fmt::format("; {} more are not there for all walkers", left_out) : "");
     wrong_ = problem(baseline(source.family), source.family, Mode::integral, agreement);
     if (source.family != Family::hexahedra) return;
-    fmt::print(stderr, "plume_bench: {}: faces are {}\n", source.name,
-               mesh_->grid.planar_faces ? "planar, all of them" : "taken for twisted");
+    fmt::print(stderr, "plume_bench: {}: {} of {} cells are in the box of twisted faces\n",
+               source.name, mesh_->grid.twisted.cell_count(), mesh_->grid.cell_count());
   }
 
   const MeshSource& source() const { return source_; }

@@ -160,6 +160,15 @@ const std::vector<SoakSource>& soak_sources() {
           },
           "grid"),
       made(
+          "grid, dented", true,
+          [] {
+            return moved(generate("box-hexahedra", {10, 0, 7}), [](const Place& p) {
+              const bool here = std::hypot(p[0] - 0.5, p[1] - 0.5, p[2] - 0.5) < 0.01;
+              return here ? Place{p[0] + 0.04, p[1] - 0.045, p[2] + 0.03} : p;
+            });
+          },
+          "grid"),
+      made(
           "grid, thin", true,
           [] {
             return scaled(generate("box-hexahedra", {8, 0.25, 7}), {1, 1, 1e-4});

@@ -210,29 +210,69 @@ TEST(WalkableGrid, StoresNoConnectivity) {
   EXPECT_FALSE(grid.left_handed);
 }
 
-TEST(WalkableGrid, KnowsItsPlanarFaces) {
+// A box of cells one of whose points is moved off the planes of the faces around it.
+Mesh dented_box(std::size_t i, std::size_t j, std::size_t k, double by) {
+  Mesh mesh = generate("box-hexahedra", {4, 0, 1});
+  std::vector<double> points(mesh.points.size());
+  for (std::size_t p = 0; p < points.size(); ++p) points[p] = mesh.points.at<double>(p);
+  const std::size_t moved = i + 5 * (j + 5 * k);
+  for (std::size_t a = 0; a < 3; ++a) points[3 * moved + a] += by;
+  mesh.points = Array::own(std::move(points));
+  return mesh;
+}
+
+TEST(WalkableGrid, KnowsWhereItsTwistedFacesAre) {
   auto grid_of = [](const Mesh& mesh) {
     return make_walkable_grid(mesh, select_field(mesh), check_structure(mesh));
   };
+  using Triple = std::array<std::uint32_t, 3>;
   for (const char* name : {"box-hexahedra", "o-grid", "sphere"}) {
     const WalkableGrid grid = grid_of(generate(name, {6, 0, 1}));
-    EXPECT_TRUE(grid.planar_faces) << name;
+    EXPECT_EQ(grid.twisted.cell_count(), 0u) << name;
     EXPECT_EQ(grid.bytes(), 16 * grid.points.size() + sizeof(BoundaryFace) * grid.boundary.size());
   }
-  EXPECT_FALSE(grid_of(generate("twisted", {6, 0, 1})).planar_faces);
+  const WalkableGrid twisted = grid_of(generate("twisted", {6, 0, 1}));
+  EXPECT_EQ(twisted.twisted.cell_count(), twisted.cell_count());
 
-  // One inner point is moved off the planes of the twelve faces around it, by less than counts and
-  // by more.
+  // By less than counts, and by more.
   for (const double by : {1e-7, 1e-6}) {
-    Mesh mesh = generate("box-hexahedra", {4, 0, 1});
-    std::vector<double> points(mesh.points.size());
-    for (std::size_t p = 0; p < points.size(); ++p) points[p] = mesh.points.at<double>(p);
-    const std::size_t moved = 2 + 5 * (2 + 5 * 2);
-    for (std::size_t a = 0; a < 3; ++a) points[3 * moved + a] += by;
-    mesh.points = Array::own(std::move(points));
-    const WalkableGrid grid = grid_of(mesh);
-    EXPECT_EQ(grid.planar_faces, by < 5e-7);
+    const WalkableGrid grid = grid_of(dented_box(2, 2, 2, by));
+    EXPECT_EQ(grid.twisted.cell_count(), by < 5e-7 ? 0u : 8u);
     EXPECT_EQ(grid.bytes(), 16 * grid.points.size() + sizeof(BoundaryFace) * grid.boundary.size());
+  }
+  const WalkableGrid inner = grid_of(dented_box(1, 2, 3, 0.05));
+  EXPECT_EQ(inner.twisted.first, (Triple{0, 1, 2}));
+  EXPECT_EQ(inner.twisted.size, (Triple{2, 2, 2}));
+  const WalkableGrid corner = grid_of(dented_box(4, 4, 0, 0.05));
+  EXPECT_EQ(corner.twisted.first, (Triple{3, 3, 0}));
+  EXPECT_EQ(corner.twisted.size, (Triple{1, 1, 1}));
+}
+
+TEST(WalkableGrid, TakesAFaceForPlanarFromBothSidesOrFromNone) {
+  for (const std::array<std::uint32_t, 3>& point :
+       {std::array<std::uint32_t, 3>{2, 2, 2}, {1, 2, 3}, {0, 2, 4}, {4, 0, 3}}) {
+    const Mesh mesh = dented_box(point[0], point[1], point[2], 0.05);
+    const WalkableGrid grid = make_walkable_grid(mesh, select_field(mesh), check_structure(mesh));
+    std::size_t twisted = 0;
+    for (std::uint32_t cell = 0; cell < grid.cell_count(); ++cell)
+      for (std::uint32_t face = 0; face < 6; ++face) {
+        const bool planar = grid.is_planar(grid.cell_index(cell), face);
+        const std::uint32_t other = grid.neighbor(cell, face);
+        if (other != kNone) {
+          EXPECT_EQ(planar, grid.is_planar(grid.cell_index(other), face ^ 1));
+        }
+        // Those with the moved point as a corner are twisted; of others only their box knows.
+        const auto index = grid.cell_index(cell);
+        bool has_it = true;
+        for (std::size_t a = 0; a < 3; ++a)
+          has_it = has_it &&
+                   (a == face / 2 ? index[a] + face % 2 == point[a] : point[a] - index[a] <= 1);
+        if (has_it) {
+          EXPECT_FALSE(planar) << "cell " << cell << ", face " << face;
+        }
+        twisted += planar ? 0 : 1;
+      }
+    EXPECT_LE(twisted, 48u);
   }
 }
 
