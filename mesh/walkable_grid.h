@@ -55,10 +55,10 @@ struct WalkableGrid {
     return {cell % ci, cell / ci % cj, cell / ci / cj};
   }
   /// First point of a cell; corner (a, b, c) of 0 and 1 is a + b * ni + c * ni * nj further on.
-  std::uint32_t first_point(std::uint32_t cell) const {
-    const auto [i, j, k] = cell_index(cell);
-    return i + dimensions[0] * (j + dimensions[1] * k);
+  std::uint32_t first_point(const std::array<std::uint32_t, 3>& index) const {
+    return index[0] + dimensions[0] * (index[1] + dimensions[1] * index[2]);
   }
+  std::uint32_t first_point(std::uint32_t cell) const { return first_point(cell_index(cell)); }
   /// Whether a face of the cell at this index is taken for planar: the same from both sides.
   bool is_planar(const std::array<std::uint32_t, 3>& index, std::uint32_t face) const {
     if (!twisted.holds(index)) return true;

@@ -27,25 +27,27 @@ constexpr float kMargin = 7.62939453125e-06f;
 
 using FaceCorners = std::span<const WalkablePoint* const>;
 
-// visit(FaceCorners) for the loop of a face, seen from outside.
+// visit(FaceCorners, planar) for the loop of a face, seen from outside; whether walkers take it for
+// planar.
 template <class Visit>
 auto with_corners(const WalkableTets& mesh, const WalkableTets::Boundary& face,
                   const Visit& visit) {
   std::array<const WalkablePoint*, 3> corners;
   for (std::size_t c = 0; c < 3; ++c) corners[c] = &mesh.points[face.loop[c]];
-  return visit(FaceCorners(corners));
+  return visit(FaceCorners(corners), true);
 }
 
 template <class Visit>
 auto with_corners(const WalkableGrid& mesh, BoundaryFace face, const Visit& visit) {
   const std::uint32_t step[3] = {1, mesh.dimensions[0], mesh.dimensions[0] * mesh.dimensions[1]};
   const std::uint32_t axis = face.face / 2;
-  const std::uint32_t base = mesh.first_point(face.cell) + (face.face % 2) * step[axis];
+  const auto index = mesh.cell_index(face.cell);
+  const std::uint32_t base = mesh.first_point(index) + (face.face % 2) * step[axis];
   std::uint32_t a = step[(axis + 1) % 3], b = step[(axis + 2) % 3];
   if ((face.face % 2 == 1) == mesh.left_handed) std::swap(a, b);
   const WalkablePoint* const first = &mesh.points[base];
   const std::array<const WalkablePoint*, 4> corners{first, first + a, first + a + b, first + b};
-  return visit(FaceCorners(corners));
+  return visit(FaceCorners(corners), mesh.is_planar(index, face.face));
 }
 
 template <class Visit>
@@ -54,7 +56,7 @@ auto with_corners(const WalkableCells& mesh, BoundaryFace face, const Visit& vis
   const auto loop = mesh.loop(face.face);
   corners.resize(loop.size());
   for (std::size_t c = 0; c < loop.size(); ++c) corners[c] = &mesh.points[loop[c]];
-  return visit(FaceCorners(corners));
+  return visit(FaceCorners(corners), corners.size() == 3);
 }
 
 template <class Mesh>
@@ -63,7 +65,7 @@ void face_bounds(const RTCBoundsFunctionArguments* args) {
   std::array<float, 3> low, high;
   low.fill(std::numeric_limits<float>::infinity());
   high.fill(-std::numeric_limits<float>::infinity());
-  with_corners(mesh, mesh.boundary[args->primID], [&](FaceCorners corners) {
+  with_corners(mesh, mesh.boundary[args->primID], [&](FaceCorners corners, bool) {
     for (const WalkablePoint* const corner : corners)
       for (std::size_t a = 0; a < 3; ++a) {
         low[a] = std::min(low[a], corner->position[a]);
@@ -161,8 +163,9 @@ void face_intersect(const RTCIntersectFunctionNArguments* args) {
   RTCHitN* const hits = RTCRayHitN_HitN(args->rayhit, args->N);
   unsigned candidates = 0xFFFFu;
   if (query.sixteen != nullptr)
-    candidates = with_corners(
-        mesh, face, [&](FaceCorners corners) { return query.sixteen->lanes().may_enter(corners); });
+    candidates = with_corners(mesh, face, [&](FaceCorners corners, bool planar) {
+      return query.sixteen->lanes().may_enter(corners, planar);
+    });
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
     const unsigned id = RTCRayN_id(rays, args->N, i);

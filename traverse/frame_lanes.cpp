@@ -140,11 +140,11 @@ class LoopLanes {
     winding_ = hn::Sub(winding_, hn::IfThenElseZero(falls, one));
   }
 
-  HWY_INLINE unsigned MayEnter(std::size_t corners) const {
+  HWY_INLINE unsigned MayEnter(std::size_t corners, bool planar) const {
     const DF d;
     const MF enters = hn::Lt(hn::Mul(winding_, sign_), hn::Zero(d));
-    // A triangle without a winding is not crossed.
-    if (corners == 3) return BitsOf(d, enters);
+    // What is planar is not crossed without a winding.
+    if (planar) return BitsOf(d, enters);
     const MF beside = hn::Or(hn::Not(hn::And(above_, below_)),
                              hn::AndNot(tiny_, hn::Not(hn::And(not_right_, not_left_))));
     const MF none = hn::Eq(winding_, hn::Zero(d));
@@ -161,23 +161,23 @@ class LoopLanes {
 };
 
 unsigned MayEnter(const FrameLanes::Arrays& frames, int axis,
-                  std::span<const WalkablePoint* const> corners) {
+                  std::span<const WalkablePoint* const> corners, bool planar) {
   const DF d;
   const std::size_t n = corners.size();
   unsigned bits = 0;
   for (std::size_t i = 0; i < RayLanes::kRays; i += hn::Lanes(d)) {
     LoopLanes loop(frames, i, static_cast<std::size_t>(axis));
     const LoopLanes::Corner first = loop.Shear(*corners[0]);
-    if (n > 3) loop.AddCorner(first);
+    if (!planar) loop.AddCorner(first);
     LoopLanes::Corner last = first;
     for (std::size_t c = 1; c < n; ++c) {
       const LoopLanes::Corner next = loop.Shear(*corners[c]);
-      if (n > 3) loop.AddCorner(next);
+      if (!planar) loop.AddCorner(next);
       loop.AddEdge(last, next);
       last = next;
     }
     loop.AddEdge(last, first);
-    bits |= loop.MayEnter(n) << i;
+    bits |= loop.MayEnter(n, planar) << i;
   }
   return bits;
 }
@@ -236,9 +236,9 @@ void FrameLanes::lines(std::array<float*, 3> start, std::array<float*, 3> step) 
   }
 }
 
-unsigned FrameLanes::may_enter(std::span<const WalkablePoint* const> corners) const {
+unsigned FrameLanes::may_enter(std::span<const WalkablePoint* const> corners, bool planar) const {
   if (!one_axis_) return 0xFFFFu;
-  return HWY_DYNAMIC_DISPATCH(MayEnter)(arrays_, axis(0), corners);
+  return HWY_DYNAMIC_DISPATCH(MayEnter)(arrays_, axis(0), corners, planar);
 }
 
 }  // namespace plume

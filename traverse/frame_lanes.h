@@ -54,9 +54,10 @@ class FrameLanes {
 
   /// A bit for each ray that may come in through the loop of these corners, seen from outside: not
   /// those that pass beside the hull of the corners, nor, for triangles and quadrilaterals, those
-  /// about which it winds as at a way out. Takes the same bits from the same numbers as the walkers
-  /// do. All bits where the rays' longest axes differ. Means nothing for rays that are not valid.
-  unsigned may_enter(std::span<const WalkablePoint* const> corners) const;
+  /// about which it winds as at a way out; of a face that is taken for planar none but those about
+  /// which it winds as at a way in. Takes the same bits from the same numbers as the walkers do.
+  /// All bits where the rays' longest axes differ. Means nothing for rays that are not valid.
+  unsigned may_enter(std::span<const WalkablePoint* const> corners, bool planar) const;
 
   /// As arrays, for the code that is compiled for each instruction set.
   struct Arrays {

@@ -55,8 +55,8 @@ struct FrontAndBack {
     return hn::Not(settled);
   }
 
-  // Whether any may be, by the hulls of the faces alone; then, more precisely.
-  HWY_INLINE VF MayBeGrazed() const { return Grazed(GrazeTest::PassesHull); }
+  // Whether any may be, by signs alone; then, more precisely.
+  HWY_INLINE VF MayBeGrazed() const { return Grazed(GrazeTest::PassedBySigns); }
   HWY_INLINE VF IsGrazed() const {
     VF x = hn::Zero(DF()), y = hn::Zero(DF());
     for (std::size_t m = 0; m < 4; ++m) {

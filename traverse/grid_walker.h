@@ -35,10 +35,10 @@ class BasicGridWalker {
   /// Calls visit(place, rank) for each way in through a boundary face.
   template <class Visit>
   void ways_in(const Boundary& boundary, const Visit& visit) const {
-    const std::uint32_t first = mesh_.first_point(boundary.cell);
+    const auto index = mesh_.cell_index(boundary.cell);
     std::array<ShearedPoint, 4> p;
-    const Quad quad = corners_of(first, boundary.face, p);
-    const bool planar = is_planar(mesh_.cell_index(boundary.cell), boundary.face);
+    const Quad quad = corners_of(mesh_.first_point(index), boundary.face, p);
+    const bool planar = is_planar(index, boundary.face);
     const QuadCrossings crossings = Faces::crossings(quad, winding(quad), planar);
     for (std::uint32_t rank = 0; rank < 2; ++rank)
       if (outwards(boundary.face) * crossings.direction[rank] < 0)
@@ -48,7 +48,7 @@ class BasicGridWalker {
   void enter(const Boundary& boundary, std::uint32_t rank) {
     cell_ = boundary.cell;
     index_ = mesh_.cell_index(cell_);
-    first_ = mesh_.first_point(cell_);
+    first_ = mesh_.first_point(index_);
     face_ = boundary.face;
     rank_ = rank;
   }

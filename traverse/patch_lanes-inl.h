@@ -106,20 +106,20 @@ class GrazeTest {
     return hn::Sub(hn::MulAdd(ax, by, hn::Zero(DF())), hn::Mul(bx, ay));
   }
 
-  // Negative where the ray passes outside of the hull of the corners a, b, c, d as it sees them,
-  // and so does not graze the face: v0 and v2 are the products of a and b, d and c, u0 and u2 those
-  // of a and d, b and c. Of a loop of winding 0, either an edge settles it, or the ray passes by
-  // the corner between two: then it is in the hull if it is behind the diagonal that leaves that
-  // corner out. Signs alone, so that it takes no bounds; a product of nearly zero settles nothing.
-  static HWY_INLINE VF PassesHull(VF v0, VF v2, VF u0, VF u2, VF ac, VF bd) {
+  // Negative where signs alone say that the face a, b, c, d is not grazed: v0 and v2 are the
+  // products of a and b, d and c, u0 and u2 those of a and d, b and c. It takes opposite edges on
+  // the same side, and a middle coefficient, ac - bd or ac + bd, of the other sign than v0 or u0.
+  // Needs no bounds; a product of nearly zero settles nothing. In a convex face nothing else is
+  // left.
+  static HWY_INLINE VF PassedBySigns(VF v0, VF v2, VF u0, VF u2, VF ac, VF bd) {
     const VF tiny = hn::Set(DF(), 1e-37f);  // above what underflows
     const VF edges = hn::Or(hn::MulAdd(v0, v2, tiny), hn::MulAdd(u0, u2, tiny));
-    const VF by_b = hn::And(hn::NegMulAdd(v0, u2, tiny), hn::NegMulAdd(v0, ac, tiny));
-    const VF by_c = hn::And(hn::MulAdd(v2, u2, tiny), hn::NegMulAdd(u2, bd, tiny));
-    return hn::Or(edges, hn::Or(by_b, by_c));
+    const VF v_middle = hn::And(hn::NegMulAdd(v0, ac, tiny), hn::MulAdd(v0, bd, tiny));
+    const VF u_middle = hn::And(hn::NegMulAdd(u0, ac, tiny), hn::NegMulAdd(u0, bd, tiny));
+    return hn::Or(edges, hn::Or(v_middle, u_middle));
   }
 
-  // Negative where the face is not grazed, which may be though its hull is passed through.
+  // The same by sizes as well.
   HWY_INLINE VF PassedBy(VF v0, VF v2, VF u0, VF u2, VF ac, VF bd) const {
     const DF d;
     const VF tiny = hn::Set(d, 1e-37f);  // above what underflows

@@ -301,16 +301,23 @@ HWY_INLINE void WithAxis(int axis, const WalkAlong& walk) {
 template <class Consumer>
 void Walk(const WalkableTets& mesh, int axis, Consumer& consumer, PacketFeeder& feeder) {
   constexpr std::size_t kLargeMesh = 500000;  // cells
-  auto walk_by = [&]<int kAxis, TetReads kReads>() {
+  auto walk_by = [&]<int kAxis, TetReads kReads, std::size_t kCount, bool kPrefetch>() {
     using Steps = TetSteps<kAxis, kReads>;
-    PacketWalk<Steps, kAheadPackets, true, Consumer>(Steps(mesh), consumer, feeder).run();
+    PacketWalk<Steps, kCount, kPrefetch, Consumer>(Steps(mesh), consumer, feeder).run();
   };
   auto walk = [&]<int kAxis>() {
-    if (mesh.is_compact()) return walk_by.template operator()<kAxis, TetReads::compact>();
-    if constexpr (!std::is_same_v<LanesLinks, LinkEach>)
-      if (mesh.cell_count() < kLargeMesh)
-        return walk_by.template operator()<kAxis, TetReads::cached>();
-    walk_by.template operator()<kAxis, TetReads::large>();
+    if (mesh.is_compact())
+      return walk_by.template operator()<kAxis, TetReads::compact, kAheadPackets, true>();
+    if (mesh.cell_count() < kLargeMesh) {
+      constexpr TetReads kCached =
+          std::is_same_v<LanesLinks, LinkEach> ? TetReads::large : TetReads::cached;
+      // A step that only counts is so short that the loads which ask ahead are a good part of it.
+      if constexpr (!Consumer::kMeasure)
+        return walk_by.template operator()<kAxis, kCached, kPackets, false>();
+      if constexpr (kCached != TetReads::large)
+        return walk_by.template operator()<kAxis, kCached, kAheadPackets, true>();
+    }
+    walk_by.template operator()<kAxis, TetReads::large, kAheadPackets, true>();
   };
   WithAxis(axis, walk);
 }
