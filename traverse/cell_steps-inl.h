@@ -121,11 +121,7 @@ class CellSteps {
       strange = hn::Or(strange, WindsTwice(crosses[e[0]], crosses[e[1]], crosses[e[2]], right[e[0]],
                                            right[e[1]], right[e[2]], right[e[3]]));
     }
-    // Signs alone settle nearly all faces.
-    VF grazed = Grazed(corner, crosses, product, odd, GrazeTest::PassedBySigns);
-    if (HWY_UNLIKELY((BitsOf(MaskOfBits(grazed)) & state.live) != 0))
-      grazed = Grazed(corner, crosses, product, odd, ExactGrazeTest(corner));
-    strange = hn::Or(strange, grazed);
+    strange = hn::Or(strange, Grazed(corner, crosses, product, odd));
 
     // The way out: the one odd face besides the one that the ray came in by.
     const VU one = hn::Set(du, 1);
@@ -209,25 +205,17 @@ class CellSteps {
     }
   }
 
+  // Lanes in which a face of even winding may be crossed twice all the same (patch_lanes-inl.h).
   template <bool kMeasure>
-  static HWY_INLINE auto ExactGrazeTest(const CornerLanes<kMeasure>& corner) {
-    VF x = hn::Zero(DF()), y = hn::Zero(DF());
+  static HWY_INLINE VF Grazed(const CornerLanes<kMeasure>& corner, const VF (&crosses)[12],
+                              const VF (&product)[12], const VF (&odd)[6]) {
+    const DF d;
+    VF x = hn::Zero(d), y = hn::Zero(d);
     for (std::size_t c = 0; c < 8; ++c) {
       x = hn::Max(x, hn::Abs(corner.x[c]));
       y = hn::Max(y, hn::Abs(corner.y[c]));
     }
     const GrazeTest test(x, y);
-    return [test](VF v0, VF v2, VF u0, VF u2, VF ac, VF bd)
-               HWY_ATTR { return test.PassedBy(v0, v2, u0, u2, ac, bd); };
-  }
-
-  // Lanes in which a face of even winding may be crossed twice all the same: not `passed`
-  // (patch_lanes-inl.h).
-  template <bool kMeasure, class Passed>
-  static HWY_INLINE VF Grazed(const CornerLanes<kMeasure>& corner, const VF (&crosses)[12],
-                              const VF (&product)[12], const VF (&odd)[6],
-                              const Passed& passed_by) {
-    const DF d;
     VF grazed = hn::Zero(d);
     for (std::size_t f = 0; f < 6; ++f) {
       const std::uint8_t* const e = kFaceEdges[f];
@@ -241,8 +229,8 @@ class CellSteps {
       auto directed = [&](std::size_t edge, std::size_t from) {
         return kEdge[edge][0] == from ? product[edge] : hn::Neg(product[edge]);
       };
-      const VF passed = passed_by(directed(e[0], loop[0]), directed(e[2], loop[3]),
-                                  directed(e[3], loop[0]), directed(e[1], loop[1]), ac, bd);
+      const VF passed = test.PassedBy(directed(e[0], loop[0]), directed(e[2], loop[3]),
+                                      directed(e[3], loop[0]), directed(e[1], loop[1]), ac, bd);
       const VF any = hn::Or(crosses[e[0]], hn::Or(crosses[e[1]], crosses[e[2]]));
       grazed = hn::Or(grazed, hn::AndNot(hn::Or(odd[f], passed), any));
     }
