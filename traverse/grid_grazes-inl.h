@@ -25,6 +25,8 @@ template <bool kMeasure>
 struct FrontAndBack {
   const QuadLanes<kMeasure>& p;
   const QuadLanes<kMeasure>& q;
+  // Products of corners m and m + 1 of the back, and of corner m of the front and of the back.
+  VF along[4], across[4];
   // Which faces cannot be grazed, as bits: those of odd winding, or whose edges all stay on one
   // side of y = 0.
   VF back_settled, side_settled[4];
@@ -34,13 +36,6 @@ struct FrontAndBack {
   template <class Passed>
   HWY_INLINE VF Grazed(const Passed& passed) const {
     const auto product = GrazeTest::Product;
-    VF along[4], across[4];
-    HWY_UNROLL(4)
-    for (std::size_t m = 0; m < 4; ++m) {
-      const std::size_t n = (m + 1) % 4;
-      along[m] = product(q.x[m], q.y[m], q.x[n], q.y[n]);
-      across[m] = product(p.x[m], p.y[m], q.x[m], q.y[m]);
-    }
     VF settled = hn::Or(back_settled, passed(along[0], hn::Neg(along[2]), hn::Neg(along[3]),
                                              along[1], product(q.x[0], q.y[0], q.x[2], q.y[2]),
                                              product(q.x[1], q.y[1], q.x[3], q.y[3])));

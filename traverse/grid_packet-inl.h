@@ -56,7 +56,7 @@ struct GridState : LaneState {
   // Which of the front's crossings it is (see pair_crossings.h); known where there are two.
   HWY_ALIGN std::uint32_t rank[kMaxLanes];
   const ShearedFrame* frame[kMaxLanes];
-  bool asks = false;  // whether the last step did
+  unsigned asks_on = 0;  // steps that ask, or may, before one is tried that does not
 
   // Of the excursion that a lane whose front is grazed is on; the cell is kNone where nothing is
   // known of it.

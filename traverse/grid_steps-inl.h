@@ -15,7 +15,7 @@
 
 #include "hwy/highway.h"
 #include "plume/mesh/walkable_grid.h"
-#include "plume/traverse/grid_grazes-inl.h"
+#include "plume/traverse/grid_behind-inl.h"
 #include "plume/traverse/grid_packet-inl.h"
 #include "plume/traverse/grid_questions-inl.h"
 #include "plume/traverse/lane_loads-inl.h"
@@ -67,111 +67,16 @@ class GridSteps {
 
   template <bool kMeasure>
   HWY_INLINE StepResult Step(State& state, Packet<kMeasure>& packet) const {
-    // Where a step has asked, the next one most likely asks as well.
-    if (HWY_UNLIKELY(state.asks)) return TakeAsking(state, packet);
+    // Where a step has asked, the next ones most likely ask as well.
+    if (HWY_UNLIKELY(state.asks_on != 0)) return TakeAsking(state, packet);
     return Take<false>(state, packet);
   }
 
  private:
   static constexpr std::uint32_t kNowhere = 6;  // a direction in which nothing moves
 
-  auto Within(const VU (&index)[3], std::size_t axis) const {
-    const DU du;
-    return hn::Lt(hn::Sub(index[axis], hn::Set(du, mesh_.twisted.first[axis])),
-                  hn::Set(du, mesh_.twisted.size[axis]));
-  }
-
-  // What lies behind the front, edge by edge and face by face.
-  template <bool kMeasure>
-  struct Behind {
-    QuadLanes<kMeasure> q;  // the back
-    // Whether edges between front and back, and of the back, cross y = 0, and on the right.
-    VF across[4], along[4], right_across[4], right_along[4];
-    VF side[4];  // whether side m winds an odd number of times
-    VF odd;      // the front
-    // A face has, or may have, two crossings.
-    VF doubtful;
-    // Lanes in which it is not clear by which face the ray leaves: the front winds an even number
-    // of times, or several sides wind, or a face is doubtful.
-    VF strange;
-  };
-
-  template <bool kExact, bool kMeasure>
-  HWY_INLINE void LookBehind(const State& state, const Packet<kMeasure>& packet,
-                             Behind<kMeasure>& behind) const {
-    const DF d;
-    const QuadLanes<kMeasure>& p = packet.front;
-    QuadLanes<kMeasure>& q = behind.q;
-    VF flipped_x[4], flipped_y[4];
-    HWY_UNROLL(4)
-    for (std::size_t m = 0; m < 4; ++m) {
-      const ShearedLanes at = Shear(LoadFour(points_, state.back_by_2[m]), axis_, state);
-      q.x[m] = at.x;
-      q.y[m] = at.y;
-      if constexpr (kMeasure) {
-        q.z[m] = at.z;
-        q.s[m] = at.s;
-      }
-      flipped_y[m] = hn::Abs(at.y);
-      flipped_x[m] = hn::Xor(at.x, hn::And(at.y, hn::SignBit(d)));
-    }
-    // As TetSteps::Step.
-    auto side_of = [&](std::size_t m, VF x, VF y) HWY_ATTR {
-      return hn::Sub(hn::MulAdd(flipped_x[m], y, hn::Zero(d)), hn::Mul(x, flipped_y[m]));
-    };
-    VF* const across = behind.across;
-    VF* const along = behind.along;
-    VF* const right_across = behind.right_across;
-    VF* const right_along = behind.right_along;
-    HWY_UNROLL(4)
-    for (std::size_t m = 0; m < 4; ++m) {
-      const std::size_t n = (m + 1) % 4;
-      const VF with_front = side_of(m, p.x[m], p.y[m]), with_next = side_of(m, q.x[n], q.y[n]);
-      across[m] = hn::Xor(p.y[m], q.y[m]);
-      along[m] = hn::Xor(q.y[n], q.y[m]);
-      right_across[m] = hn::And(with_front, across[m]);
-      right_along[m] = hn::And(with_next, along[m]);
-    }
-    const VF* const right = packet.right;
-    VF* const side = behind.side;
-    HWY_UNROLL(4)
-    for (std::size_t m = 0; m < 4; ++m)
-      side[m] = Xor3(right[m], right_across[m], hn::Xor(right_across[(m + 1) % 4], right_along[m]));
-
-    VF several = hn::And(side[0], side[1]);
-    several = hn::Or(several, hn::And(hn::Or(side[0], side[1]), side[2]));
-    several = hn::Or(several, hn::And(hn::Or(hn::Or(side[0], side[1]), side[2]), side[3]));
-    behind.odd = Xor3(right[0], right[1], hn::Xor(right[2], right[3]));
-    VF before[4];  // the front's edges: do they cross y = 0?
-    HWY_UNROLL(4)
-    for (std::size_t m = 0; m < 4; ++m) before[m] = hn::Xor(p.y[m], p.y[(m + 1) % 4]);
-    VF doubtful = WindsTwice(along[0], along[1], along[2], right_along[0], right_along[1],
-                             right_along[2], right_along[3]);
-    HWY_UNROLL(4)
-    for (std::size_t m = 0; m < 4; ++m) {
-      const std::size_t n = (m + 1) % 4;
-      doubtful = hn::Or(doubtful, WindsTwice(before[m], across[n], along[m], right[m],
-                                             right_across[n], right_along[m], right_across[m]));
-    }
-    if constexpr (kTwisted) {
-      FrontAndBack<kMeasure> cell{p, q, {}, {}};
-      auto settled = [&](VF odd, VF crosses0, VF crosses1, VF crosses2) HWY_ATTR {
-        return hn::Or(odd, hn::Not(Or3(crosses0, crosses1, crosses2)));
-      };
-      const VF back_odd = Xor3(behind.odd, hn::Xor(side[0], side[1]), hn::Xor(side[2], side[3]));
-      cell.back_settled = settled(back_odd, along[0], along[1], along[2]);
-      HWY_UNROLL(4)
-      for (std::size_t m = 0; m < 4; ++m)
-        cell.side_settled[m] = settled(side[m], before[m], across[(m + 1) % 4], along[m]);
-      doubtful = hn::Or(doubtful, kExact ? cell.IsGrazed() : cell.MayBeGrazed());
-    } else if (mesh_.twisted.size[0] != 0) {
-      const auto inside = hn::And(hn::And(Within(packet.index, 0), Within(packet.index, 1)),
-                                  Within(packet.index, 2));
-      doubtful = hn::Or(doubtful, hn::VecFromMask(d, hn::RebindMask(d, inside)));
-    }
-    behind.doubtful = doubtful;
-    behind.strange = Or3(several, hn::Not(behind.odd), doubtful);
-  }
+  // Where rays run along twisted faces five of six steps of a packet ask.
+  static constexpr unsigned kAsksOn = 8;
 
   // A step where strange lanes ask here, or the same once more in a function that does: what only
   // they need would be written to memory by every step.
@@ -180,7 +85,7 @@ class GridSteps {
     const DF d;
     const DU du;
     Behind<kMeasure> behind;
-    LookBehind<kAsks>(state, packet, behind);
+    LookBehind<kTwisted, kAsks>(mesh_, points_, axis_, state, packet, behind);
     QuadLanes<kMeasure>& p = packet.front;
     QuadLanes<kMeasure>& q = behind.q;
     const VF* const right = packet.right;
@@ -193,7 +98,7 @@ class GridSteps {
     MF measured = result.left;
     const VU opposite = hn::Set(du, 1);
     const bool asks = (BitsOf(MaskOfBits(behind.strange)) & state.live) != 0;
-    if constexpr (kAsks) state.asks = asks;
+    if constexpr (kAsks) state.asks_on = asks ? kAsksOn : state.asks_on - (state.asks_on != 0);
     if (HWY_UNLIKELY(asks)) {
       if constexpr (!kAsks) {
         return TakeAsking(state, packet);
