@@ -1,11 +1,14 @@
 #include "plume/lib/packet_tile.h"
 
+#include <cassert>
+
 namespace plume {
 
 template <class Walker>
 void PacketTile<Walker>::clear() {
   size_ = 0;
   places_.clear();
+  visits_.clear();
 }
 
 template <class Walker>
@@ -18,13 +21,19 @@ void PacketTile<Walker>::add(const RayLanes& rays) {
       continue;
     }
     places_.push_back(static_cast<std::uint32_t>(size_));
-    if (size_ == rays_.size()) rays_.emplace_back();
+    assert(size_ < kMostRays);
     TileRay& added = rays_[size_++];
     added.ray = rays.ray(i);
     frames_.put(i, added.frame);
     added.all_entries.list() = found_[i];
     added.entries = 0;
     added.declined = added.waiting = false;
+    // At once, while all that it takes is near.
+    const auto entry = added.all_entries.first();
+    if (added.frame.t(entry->place.z) < added.ray.t_min)
+      added.declined = true;
+    else
+      added.waiting = prepare(size_ - 1, entry, entry->place.z);
   }
 }
 
@@ -96,14 +105,6 @@ void PacketTile<Walker>::composite(PacketOptics optics) {
 template <class Walker>
 void PacketTile<Walker>::walk_by(const PacketWalkOfRays& walk) {
   colors_.assign(size_, PacketColor{});
-  for (std::size_t index = 0; index < size_; ++index) {
-    TileRay& ray = rays_[index];
-    const auto entry = ray.all_entries.first();
-    if (ray.frame.t(entry->place.z) < ray.ray.t_min)
-      ray.declined = true;
-    else
-      ray.waiting = prepare(index, entry, entry->place.z);
-  }
   for (int axis = 0; axis < 3; ++axis) {
     Feeder feeder(*this, axis);
     walk(colors_, axis, feeder);

@@ -43,8 +43,10 @@ class PacketTile {
   PacketTile(const Mesh& mesh, const BoundaryIndex<Walker>& boundary, double gap)
       : mesh_(mesh), boundary_(boundary), gap_(gap) {}
 
+  static constexpr std::size_t kMostRays = 1024;
+
   void clear();
-  /// Rays that see from their origin to infinity.
+  /// Rays that see from their origin to infinity, kMostRays between one clear() and the next.
   void add(const RayLanes& rays);
   /// What the optics keep of each ray is the tile's. They number rays that meet the mesh, which is
   /// what ray() and distance() expect.
@@ -82,7 +84,9 @@ class PacketTile {
   const BoundaryIndex<Walker>& boundary_;
   const double gap_;
   std::vector<std::uint32_t> places_;  // in rays_, of all that were added
-  std::vector<TileRay> rays_;  // the first size_ of them: what there is is used again as it is
+  // The first size_ of them, used again as they are. They stay where they are: starts refer to
+  // frames.
+  std::vector<TileRay> rays_ = std::vector<TileRay>(kMostRays);
   std::size_t size_ = 0;
   std::vector<PacketColor> colors_;
   std::vector<PacketVisit> visits_;  // none for a volume alone
