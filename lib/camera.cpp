@@ -110,8 +110,7 @@ void zoom(Camera& camera, double factor) {
   camera.parallel_scale /= factor;
 }
 
-PixelRays::PixelRays(const Camera& camera, int width, int height)
-    : camera_(camera), pixels_x_(width), pixels_y_(height) {
+PixelRays::PixelRays(const Camera& camera, int width, int height) {
   for (const Vector& v : {camera.position, camera.focal_point, camera.view_up})
     if (!std::isfinite(length(v)))
       throw Error(fmt::format("camera: ({}, {}, {}) is not finite", v[0], v[1], v[2]));
@@ -119,41 +118,46 @@ PixelRays::PixelRays(const Camera& camera, int width, int height)
     if (!std::isfinite(center))
       throw Error(fmt::format("camera: the window centre ({}, {}) is not finite",
                               camera.window_center[0], camera.window_center[1]));
-  forward_ = normalized(sum(camera.focal_point, -1, camera.position));
-  if (!(length(forward_) > 0))
+  lens_.forward = normalized(sum(camera.focal_point, -1, camera.position));
+  if (!(length(lens_.forward) > 0))
     throw Error(fmt::format("camera: the position ({}, {}, {}) is the focal point",
                             camera.position[0], camera.position[1], camera.position[2]));
-  right_ = cross(forward_, normalized(camera.view_up));
-  if (!(length(right_) > 1e-9))
+  lens_.right = cross(lens_.forward, normalized(camera.view_up));
+  if (!(length(lens_.right) > 1e-9))
     throw Error(fmt::format("camera: view up ({}, {}, {}) lies along the line of sight",
                             camera.view_up[0], camera.view_up[1], camera.view_up[2]));
-  right_ = normalized(right_);
-  up_ = cross(right_, forward_);
+  lens_.right = normalized(lens_.right);
+  lens_.up = cross(lens_.right, lens_.forward);
   if (camera.parallel) {
     if (!(camera.parallel_scale > 0) || !std::isfinite(camera.parallel_scale))
       throw Error(
           fmt::format("camera: a parallel scale of {}; it must be above 0", camera.parallel_scale));
-    half_height_ = camera.parallel_scale;
+    lens_.half_height = camera.parallel_scale;
   } else {
     if (!(camera.view_angle > 0 && camera.view_angle < 180))
       throw Error(fmt::format("camera: a view angle of {} degrees; it must be between 0 and 180",
                               camera.view_angle));
-    half_height_ = std::tan(radians(0.5 * camera.view_angle));
+    lens_.half_height = std::tan(radians(0.5 * camera.view_angle));
   }
-  half_width_ = half_height_ * pixels_x_ / pixels_y_;
+  lens_.pixels_x = width;
+  lens_.pixels_y = height;
+  lens_.half_width = lens_.half_height * lens_.pixels_x / lens_.pixels_y;
+  lens_.position = camera.position;
+  lens_.window_center = camera.window_center;
+  lens_.parallel = camera.parallel;
 }
 
 Ray PixelRays::operator()(double x, double y) const {
-  const double across = (2 * x / pixels_x_ - 1 + camera_.window_center[0]) * half_width_;
-  const double upward = (1 - 2 * y / pixels_y_ + camera_.window_center[1]) * half_height_;
+  const double across = (2 * x / lens_.pixels_x - 1 + lens_.window_center[0]) * lens_.half_width;
+  const double upward = (1 - 2 * y / lens_.pixels_y + lens_.window_center[1]) * lens_.half_height;
   Ray ray;
-  if (camera_.parallel) {
-    ray.origin = sum(sum(camera_.position, across, right_), upward, up_);
-    ray.direction = forward_;
+  if (lens_.parallel) {
+    ray.origin = sum(sum(lens_.position, across, lens_.right), upward, lens_.up);
+    ray.direction = lens_.forward;
   } else {
-    ray.origin = camera_.position;
-    // At least as long as `forward_`, which is 1: squares neither underflow nor need care.
-    const Vector d = sum(sum(forward_, across, right_), upward, up_);
+    ray.origin = lens_.position;
+    // At least as long as `lens_.forward`, which is 1: squares neither underflow nor need care.
+    const Vector d = sum(sum(lens_.forward, across, lens_.right), upward, lens_.up);
     const double scale = 1 / std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
     ray.direction = {d[0] * scale, d[1] * scale, d[2] * scale};
   }

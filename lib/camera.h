@@ -52,6 +52,14 @@ void zoom(Camera& camera, double factor);
 
 struct RayLanes;
 
+/// What a picture's rays are worked out from.
+struct PixelLens {
+  std::array<double, 3> position{}, forward{}, right{}, up{};
+  double half_width = 0, half_height = 0, pixels_x = 0, pixels_y = 0;
+  std::array<double, 2> window_center{};
+  bool parallel = false;
+};
+
 /// The rays of a picture's pixels.
 class PixelRays {
  public:
@@ -68,9 +76,7 @@ class PixelRays {
            std::size_t size) const;
 
  private:
-  Camera camera_;
-  std::array<double, 3> forward_, right_, up_;
-  double half_width_, half_height_, pixels_x_, pixels_y_;
+  PixelLens lens_;
 };
 
 }  // namespace plume

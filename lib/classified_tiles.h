@@ -16,8 +16,8 @@ class ClassifiedTiles : public TileMaker {
         integrator_(integrator),
         pixels_(frame, walkable, integrator) {}
 
-  void make(const Tile& tile, Counts& counts) override {
-    frame_.for_each_pixel(tile, [&](const PixelPlace& place) { make_pixel(place, counts); });
+  void make(TileSource& tiles, Counts& counts) override {
+    frame_.for_each_pixel(tiles, [&](const PixelPlace& place) { make_pixel(place, counts); });
   }
 
   void make_pixel(const PixelPlace& place, Counts& counts) {

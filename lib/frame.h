@@ -27,6 +27,14 @@ struct Tile {
   int x = 0, y = 0;
 };
 
+/// Tiles one after the other, each of a picture given to one source only.
+class TileSource {
+ public:
+  virtual ~TileSource() = default;
+  /// To be asked when the last one is made, or all but made.
+  virtual std::optional<Tile> next() = 0;
+};
+
 /// A pixel of the image, and where it is in its arrays.
 struct PixelPlace {
   int x, y;
@@ -92,6 +100,22 @@ class Frame {
     if (opaque_.any()) ray.t_max = opaque_.limits[pixel.index];
     return ray;
   }
+  /// Whether all of a tile is in the picture, and nothing opaque in sight.
+  bool is_clear(const Tile& tile) const {
+    return tile.x + kTile <= window_.width && tile.y + kTile <= window_.height && !opaque_.any();
+  }
+  /// Sixteen pixels of such a tile, from the `first`-th, and their rays.
+  void rays(const Tile& tile, std::size_t first, std::span<PixelPlace, RayLanes::kRays> pixels,
+            RayLanes& rays) const {
+    std::array<double, RayLanes::kRays> x, y;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+      const PixelPlace place = place_of(tile, first + i);
+      x[i] = window_.x + place.x + 0.5;
+      y[i] = window_.y + place.y + 0.5;
+      pixels[i] = place;
+    }
+    rays_.set(rays, x, y, pixels.size());
+  }
   /// Those of up to sixteen pixels that see endlessly, to the bit.
   void rays(std::span<const PixelPlace> pixels, RayLanes& rays) const {
     std::array<double, RayLanes::kRays> x{}, y{};
@@ -131,17 +155,23 @@ class Frame {
   /// of gray, run from and to.
   void shade_raw(RenderStatistics& statistics);
 
-  /// Calls visit(PixelPlace) for a tile's pixels along a Z-curve: neighbours in the list, which
-  /// share packets, are neighbours in the picture and meet the same cells.
+  /// A tile's pixels along a Z-curve, 0 to kTile * kTile - 1: neighbours in the list, which share
+  /// packets, are neighbours in the picture and meet the same cells. Nothing beyond the picture.
+  std::optional<PixelPlace> pixel(const Tile& tile, std::size_t number) const {
+    const PixelPlace place = place_of(tile, number);
+    if (place.x >= window_.width || place.y >= window_.height) return std::nullopt;
+    return place;
+  }
+  /// Calls visit(PixelPlace) for each of them.
   template <class Visit>
   void for_each_pixel(const Tile& tile, Visit&& visit) const {
-    for (const auto& [along, down] : kTileOrder) {
-      const int x = tile.x + along, y = tile.y + down;
-      if (x >= window_.width || y >= window_.height) continue;
-      visit(PixelPlace{x, y,
-                       static_cast<std::size_t>(y) * static_cast<std::size_t>(window_.width) +
-                           static_cast<std::size_t>(x)});
-    }
+    for (std::size_t number = 0; number < kTileOrder.size(); ++number)
+      if (const auto place = pixel(tile, number)) visit(*place);
+  }
+  /// And of each tile.
+  template <class Visit>
+  void for_each_pixel(TileSource& tiles, Visit&& visit) const {
+    while (const auto tile = tiles.next()) for_each_pixel(*tile, visit);
   }
 
  private:
@@ -149,6 +179,13 @@ class Frame {
     int x, y;
   };
   static const std::array<TilePixel, kTile * kTile> kTileOrder;
+
+  PixelPlace place_of(const Tile& tile, std::size_t number) const {
+    const int x = tile.x + kTileOrder[number].x, y = tile.y + kTileOrder[number].y;
+    return {x, y,
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(window_.width) +
+                static_cast<std::size_t>(x)};
+  }
 
   std::size_t channel_place(const std::string& name);
   std::optional<std::size_t> wanted(const std::string& name);

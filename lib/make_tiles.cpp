@@ -1,11 +1,13 @@
 #include "plume/lib/make_tiles.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <optional>
 
 namespace plume {
 namespace {
@@ -31,19 +33,43 @@ class ProgressReport {
   std::atomic<bool> cancelled_ = false;
 };
 
+// One thread's: whoever asks first gets a tile.
+class SharedTiles : public TileSource {
+ public:
+  SharedTiles(const Frame& frame, std::atomic<int>& given, ProgressReport& report)
+      : across_(frame.tiles_across()),
+        tiles_(across_ * frame.tiles_down()),
+        given_(given),
+        report_(report) {}
+
+  std::optional<Tile> next() override {
+    if (has_tile_) report_.tile_done();
+    const int tile = report_.cancelled() ? tiles_ : given_++;
+    has_tile_ = tile < tiles_;
+    if (!has_tile_) return std::nullopt;
+    return Tile{tile % across_ * kTile, tile / across_ * kTile};
+  }
+
+ private:
+  const int across_, tiles_;
+  std::atomic<int>& given_;
+  ProgressReport& report_;
+  bool has_tile_ = false;
+};
+
 }  // namespace
 
 bool make_tiles(const Frame& frame, TileMaker& maker, const Progress& progress,
                 RenderStatistics& statistics) {
-  const int across = frame.tiles_across(), tiles = across * frame.tiles_down();
+  const int tiles = frame.tiles_across() * frame.tiles_down();
   ProgressReport report(progress, tiles);
+  std::atomic<int> given = 0;
   tbb::enumerable_thread_specific<Counts> counts;
-  tbb::parallel_for(tbb::blocked_range<int>(0, tiles, 1), [&](const auto& range) {
-    for (int tile = range.begin(); tile != range.end(); ++tile) {
-      if (report.cancelled()) return;
-      maker.make({tile % across * kTile, tile / across * kTile}, counts.local());
-      report.tile_done();
-    }
+  // A source for each thread; what no thread comes to is empty by then.
+  const int threads = std::min(tbb::this_task_arena::max_concurrency(), tiles);
+  tbb::parallel_for(0, threads, [&](int) {
+    SharedTiles source(frame, given, report);
+    maker.make(source, counts.local());
   });
   for (const Counts& part : counts) {
     statistics.rays_hit += part.hit;

@@ -1,5 +1,3 @@
-#include <tbb/enumerable_thread_specific.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -58,12 +56,12 @@ void take(CellCountPixel& pixel, const PacketNumber&, const PacketColor& color) 
   pixel.cells = color.cells;
 }
 
-// Of one thread's tile.
+// Of one thread's rays.
 template <class Packets>
-class FirstOfTile : public PacketFirst {
+class FirstOfStream : public PacketFirst {
  public:
-  FirstOfTile(const Frame& frame, const VisibleScalars& visible, const Packets& packets,
-              std::span<PacketNumber> numbers)
+  FirstOfStream(const Frame& frame, const VisibleScalars& visible, const Packets& packets,
+                std::span<PacketNumber> numbers)
       : frame_(frame), visible_(visible), packets_(packets), numbers_(numbers) {}
 
   Clear around(float scalar) const override {
@@ -106,44 +104,59 @@ class ModePacketTiles : public TileMaker {
         fresh_(fresh),
         twin_(frame, walkable, fresh),
         extinction_(PieceTable(frame.scene().transfer_function())),
-        visible_(frame.scene().transfer_function()),
-        local_([&] {
-          return Local{PacketTileOf<Walkable>(walkable.mesh, walkable.boundary, frame.gap()), {}};
-        }) {}
+        visible_(frame.scene().transfer_function()) {}
 
-  void make(const Tile& tile, Counts& counts) override {
-    Local& local = local_.local();
-    make_by_packets(
-        frame_, tile, local.packets, twin_, counts, [&] { walk(local); },
-        [&](const PixelPlace& place, const PacketResult& result, std::size_t ray) {
-          Pixel pixel = fresh_;
-          take(pixel, local.numbers[ray], result.color);
-          frame_.put_raw(place, pixel.value(), pixel.seen());
-        },
-        [&](const PixelPlace& place) { frame_.put_raw(place, fresh_.value(), fresh_.seen()); });
+  void make(TileSource& tiles, Counts& counts) override {
+    Stream stream(walkable_.mesh, walkable_.boundary, frame_.gap());
+    Pixels pixels(*this, tiles, counts);
+    walk(stream, pixels);
   }
 
  private:
-  struct Local {
-    PacketTileOf<Walkable> packets;
-    std::vector<PacketNumber> numbers;
+  using Stream = PacketStreamOf<Walkable>;
+  using Twin = ModeTiles<Walkable, Pixel>;
+
+  class Pixels : public PacketPixels<Twin> {
+   public:
+    Pixels(ModePacketTiles& tiles, TileSource& source, Counts& counts)
+        : PacketPixels<Twin>(tiles.frame_, source, tiles.twin_, counts),
+          frame_(tiles.frame_),
+          fresh_(tiles.fresh_) {}
+
+    void begin(std::uint32_t ray) override { numbers[ray] = before_; }
+    void put(const PixelPlace& place, const PacketColor& color, const TraceResult& trace,
+             std::uint32_t ray) override {
+      this->count(trace);
+      Pixel pixel = fresh_;
+      take(pixel, numbers[ray], color);
+      frame_.put_raw(place, pixel.value(), pixel.seen());
+    }
+    void miss(const PixelPlace& place) override {
+      frame_.put_raw(place, fresh_.value(), fresh_.seen());
+    }
+
+    std::vector<PacketNumber> numbers = std::vector<PacketNumber>(Stream::kMostRays);
+
+   private:
+    Frame& frame_;
+    const Pixel& fresh_;
+    const PacketNumber before_ = PacketNumber::before(frame_.settings().mode);
   };
 
-  void walk(Local& local) const {
+  void walk(Stream& stream, Pixels& pixels) const {
     const Mode mode = frame_.settings().mode;
-    local.numbers.assign(std::size_t{kTile} * kTile, PacketNumber::before(mode));
-    const FirstOfTile first(frame_, visible_, local.packets, std::span(local.numbers));
+    const FirstOfStream first(frame_, visible_, stream, std::span(pixels.numbers));
     ModePackets packets;
     packets.mode = mode;
     packets.extinction = &extinction_;
     packets.first = &first;
-    packets.numbers = local.numbers;
+    packets.numbers = pixels.numbers;
     if (!is_linear(frame_.scene(), frame_.settings())) packets.order = frame_.settings().order;
     packets.tolerance =
         std::max(static_cast<float>(frame_.tolerance()), std::numeric_limits<float>::min());
     [[maybe_unused]] const bool curved =
         packets.order != ScalarOrder::linear && mode != Mode::cell_count;
-    local.packets.walk_by([&](std::span<PacketColor> colors, int axis, PacketFeeder& feeder) {
+    auto by_packets = [&](std::span<PacketColor> colors, int axis, PacketFeeder& feeder) {
       packets.colors = colors;
       if constexpr (std::is_same_v<typename Walkable::Walker, RectilinearWalker>) {
         reduce_packets(walkable_.mesh, packets, feeder);
@@ -152,16 +165,16 @@ class ModePacketTiles : public TileMaker {
           if (curved) return reduce_curved_packets(walkable_.mesh, packets, axis, feeder);
         reduce_packets(walkable_.mesh, packets, axis, feeder);
       }
-    });
+    };
+    stream.walk_by(by_packets, pixels);
   }
 
   Frame& frame_;
   const Walkable& walkable_;
   const Pixel fresh_;
-  ModeTiles<Walkable, Pixel> twin_;
+  Twin twin_;
   const ExtinctionTable extinction_;
   const VisibleScalars visible_;
-  tbb::enumerable_thread_specific<Local> local_;
 };
 
 }  // namespace

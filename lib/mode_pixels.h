@@ -14,8 +14,8 @@ class ModeTiles : public TileMaker {
   ModeTiles(Frame& frame, const Walkable& walkable, const Pixel& fresh)
       : frame_(frame), walkable_(walkable), fresh_(fresh) {}
 
-  void make(const Tile& tile, Counts& counts) override {
-    frame_.for_each_pixel(tile, [&](const PixelPlace& place) { make_pixel(place, counts); });
+  void make(TileSource& tiles, Counts& counts) override {
+    frame_.for_each_pixel(tiles, [&](const PixelPlace& place) { make_pixel(place, counts); });
   }
 
   void make_pixel(const PixelPlace& place, Counts& counts) {

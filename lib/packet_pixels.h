@@ -1,60 +1,75 @@
-/// The pixels of a tile by packets, those that packets decline by their twin.
+/// The pixels of a picture's tiles by packets, those that packets decline by their twin.
 #pragma once
 
-#include <array>
 #include <cstddef>
 
 #include "plume/lib/frame.h"
-#include "plume/lib/packet_tile.h"
-#include "plume/lib/rectilinear_tile.h"
+#include "plume/lib/packet_stream.h"
+#include "plume/lib/rectilinear_stream.h"
 
 namespace plume {
 
 template <class Walkable>
-using PacketTileOf = PacketTile<typename Walkable::Walker>;
-static_assert(kTile * kTile <= PacketTile<TetWalker>::kMostRays);
+using PacketStreamOf = PacketStream<typename Walkable::Walker>;
 
-/// Adds the tile's rays to `packets`, calls walk() for all of them together, then
-/// put(const PixelPlace&, const PacketResult&, std::size_t) for each pixel that packets have made,
-/// with its ray's PacketStart::ray, or miss(const PixelPlace&) where that does not meet the mesh.
-/// `twin` makes the other pixels.
-template <class Packets, class Twin, class Walk, class Put, class Miss>
-void make_by_packets(const Frame& frame, const Tile& tile, Packets& packets, Twin& twin,
-                     Counts& counts, const Walk& walk, const Put& put, const Miss& miss) {
-  packets.clear();
-  // Packets walk whole passages: rays that end inside are walked one by one.
-  std::array<PixelPlace, RayLanes::kRays> pixels;
-  std::size_t size = 0;
-  RayLanes rays;
-  auto add = [&] {
-    frame.rays({pixels.data(), size}, rays);
-    packets.add(rays);
-    size = 0;
-  };
-  frame.for_each_pixel(tile, [&](const PixelPlace& pixel) {
-    // A copy to refer to, so that others stay in registers: written to memory in parts and read
-    // whole at once in the next line, they would have to wait (2% of a frame).
-    if (!frame.sees_endlessly(pixel)) return twin.make_pixel(PixelPlace(pixel), counts);
-    pixels[size++] = pixel;
-    if (size == pixels.size()) add();
-  });
-  if (size > 0) add();
-  walk();
-  std::size_t ray = 0;
-  frame.for_each_pixel(tile, [&](const PixelPlace& pixel) {
-    if (!frame.sees_endlessly(pixel)) return;
-    const std::size_t number = ray++;
-    ++counts.in_packets;
-    if (!packets.meets(number)) return miss(pixel);
-    const PacketResult result = packets.result(number);
-    if (result.declined) {
-      --counts.in_packets;
-      twin.make_pixel(pixel, counts);
-      return;
+/// All that does not depend on what a pixel shows. `twin` makes pixels ray by ray; references are
+/// kept.
+template <class Twin>
+class PacketPixels : public StreamPixels {
+ public:
+  PacketPixels(const Frame& frame, TileSource& tiles, Twin& twin, Counts& counts)
+      : frame_(frame), tiles_(tiles), twin_(twin), counts_(counts) {}
+
+  bool next(Block& pixels, RayLanes& rays) final {
+    if (!has_pixel()) return false;
+    std::size_t size = 0;
+    if (is_clear_ && at_ + pixels.size() <= kPixels) {
+      size = pixels.size();
+      frame_.rays(tile_, at_, pixels, rays);
+      at_ += size;
+    } else {
+      for (; size < pixels.size() && has_pixel(); ++at_)
+        if (const auto pixel = frame_.pixel(tile_, at_)) {
+          // Packets walk whole passages: rays that end inside are walked one by one.
+          if (frame_.sees_endlessly(*pixel))
+            pixels[size++] = *pixel;
+          else
+            twin_.make_pixel(PixelPlace(*pixel), counts_);
+        }
+      frame_.rays({pixels.data(), size}, rays);
     }
-    counts.add(result.trace);
-    put(pixel, result, packets.index(number));
-  });
-}
+    counts_.in_packets += size;
+    return size > 0;
+  }
+
+  void decline(const PixelPlace& pixel) final {
+    --counts_.in_packets;
+    twin_.make_pixel(pixel, counts_);
+  }
+
+ protected:
+  void count(const TraceResult& trace) { counts_.add(trace); }
+
+ private:
+  static constexpr std::size_t kPixels = std::size_t{kTile} * kTile;
+
+  bool has_pixel() {
+    if (at_ < kPixels) return true;
+    const auto tile = tiles_.next();
+    if (!tile) return false;
+    tile_ = *tile;
+    is_clear_ = frame_.is_clear(tile_);
+    at_ = 0;
+    return true;
+  }
+
+  const Frame& frame_;
+  TileSource& tiles_;
+  Twin& twin_;
+  Counts& counts_;
+  Tile tile_;
+  bool is_clear_ = false;
+  std::size_t at_ = kPixels;
+};
 
 }  // namespace plume

@@ -1,5 +1,3 @@
-#include <tbb/enumerable_thread_specific.h>
-
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -15,20 +13,20 @@
 namespace plume {
 namespace {
 
-// Of one thread's tile.
+// Of one thread's rays.
 template <class Walkable>
-class TileLight : public PacketLight {
+class StreamLight : public PacketLight {
  public:
-  TileLight(const SurfaceLight<Walkable>& light, const PacketTileOf<Walkable>& tile)
-      : light_(light), tile_(tile) {}
+  StreamLight(const SurfaceLight<Walkable>& light, const PacketStreamOf<Walkable>& stream)
+      : light_(light), stream_(stream) {}
 
   Shading at(std::uint32_t ray, float z, float back, std::uint32_t cell) const override {
-    return light_.shading(tile_.ray(ray), tile_.distance(ray, z) - back, cell);
+    return light_.shading(stream_.ray(ray), stream_.distance(ray, z) - back, cell);
   }
 
  private:
   const SurfaceLight<Walkable>& light_;
-  const PacketTileOf<Walkable>& tile_;
+  const PacketStreamOf<Walkable>& stream_;
 };
 
 // `Twin` makes the pixels of rays that packets decline.
@@ -41,46 +39,59 @@ class PacketTiles : public TileMaker {
         walkable_(walkable),
         pieces_(pieces),
         twin_(frame, walkable, integrator),
-        light_(frame, walkable),
-        packets_([&] {
-          return PacketTileOf<Walkable>(walkable.mesh, walkable.boundary, frame.gap());
-        }) {}
+        light_(frame, walkable) {}
 
-  void make(const Tile& tile, Counts& counts) override {
-    auto& packets = packets_.local();
-    make_by_packets(
-        frame_, tile, packets, twin_, counts, [&] { composite(packets, counts); },
-        [&](const PixelPlace& pixel, const PacketResult& result, std::size_t) {
-          float* rgba = frame_.rgba(pixel);
-          rgba[0] = result.color.r;
-          rgba[1] = result.color.g;
-          rgba[2] = result.color.b;
-          rgba[3] = 1 - result.color.transmittance;
-        },
-        [](const PixelPlace&) {});  // pixels are empty from the start
+  void make(TileSource& tiles, Counts& counts) override {
+    Stream stream(walkable_.mesh, walkable_.boundary, frame_.gap());
+    Pixels pixels(frame_, tiles, twin_, counts);
+    composite(stream, pixels, counts);
   }
 
  private:
-  void composite(PacketTileOf<Walkable>& packets, Counts& counts) const {
+  using Stream = PacketStreamOf<Walkable>;
+
+  class Pixels : public PacketPixels<Twin> {
+   public:
+    Pixels(Frame& frame, TileSource& tiles, Twin& twin, Counts& counts)
+        : PacketPixels<Twin>(frame, tiles, twin, counts), frame_(frame) {}
+
+    void begin(std::uint32_t) override {}
+    void put(const PixelPlace& pixel, const PacketColor& color, const TraceResult& trace,
+             std::uint32_t) override {
+      this->count(trace);
+      float* rgba = frame_.rgba(pixel);
+      rgba[0] = color.r;
+      rgba[1] = color.g;
+      rgba[2] = color.b;
+      rgba[3] = 1 - color.transmittance;
+    }
+    void miss(const PixelPlace&) override {}  // pixels are empty from the start
+
+   private:
+    Frame& frame_;
+  };
+
+  void composite(Stream& stream, Pixels& pixels, Counts& counts) const {
     PacketOptics optics;
     optics.early_termination = static_cast<float>(frame_.settings().early_termination);
     if (const auto* volume = std::get_if<PieceTable>(&pieces_)) {
-      if (!is_linear(frame_.scene(), frame_.settings())) return composite_curved(packets, *volume);
+      if (!is_linear(frame_.scene(), frame_.settings()))
+        return composite_curved(stream, pixels, *volume);
       optics.volume = volume;
-      packets.composite(optics);
+      stream.composite(optics, pixels);
       return;
     }
-    const TileLight<Walkable> light(light_, packets);
+    const StreamLight<Walkable> light(light_, stream);
     ClassifiedPackets classified{std::get<ClassifiedPieces>(pieces_), {}};
     if (light_.is_on()) classified.light = &light;
     classified.light_intervals = light_.on_intervals();
     optics.classified = &classified;
-    packets.composite(optics);
+    stream.composite(optics, pixels);
     counts.surfaces += classified.surfaces_crossed;
     counts.visits += classified.intervals_visited;
   }
 
-  void composite_curved(PacketTileOf<Walkable>& packets, const PieceTable& volume) const {
+  void composite_curved(Stream& stream, Pixels& pixels, const PieceTable& volume) const {
     if constexpr (kCurvedPackets<Walkable>) {
       const RenderSettings& settings = frame_.settings();
       CurvedPackets curved{&volume,
@@ -88,10 +99,12 @@ class PacketTiles : public TileMaker {
                            static_cast<float>(frame_.tolerance()),
                            static_cast<float>(settings.early_termination),
                            {}};
-      packets.walk_by([&](std::span<PacketColor> colors, int axis, PacketFeeder& feeder) {
-        curved.colors = colors;
-        composite_curved_packets(walkable_.mesh, curved, axis, feeder);
-      });
+      stream.walk_by(
+          [&](std::span<PacketColor> colors, int axis, PacketFeeder& feeder) {
+            curved.colors = colors;
+            composite_curved_packets(walkable_.mesh, curved, axis, feeder);
+          },
+          pixels);
     }
   }
 
@@ -100,7 +113,6 @@ class PacketTiles : public TileMaker {
   const PacketPieces& pieces_;
   Twin twin_;
   const SurfaceLight<Walkable> light_;
-  tbb::enumerable_thread_specific<PacketTileOf<Walkable>> packets_;
 };
 
 }  // namespace

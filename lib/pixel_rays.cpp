@@ -9,21 +9,6 @@
 #include "hwy/highway.h"
 
 // PixelRays::operator(), operation by operation, for sixteen pixels at once.
-#ifndef PLUME_LIB_PIXEL_RAYS_LENS_
-#define PLUME_LIB_PIXEL_RAYS_LENS_
-namespace plume {
-
-// What the code of all instruction sets reads of PixelRays.
-struct PixelLens {
-  std::array<double, 3> position, forward, right, up;
-  double half_width, half_height, pixels_x, pixels_y;
-  std::array<double, 2> window_center;
-  bool parallel;
-};
-
-}  // namespace plume
-#endif
-
 HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
@@ -75,10 +60,7 @@ HWY_EXPORT(SetPixelRays);
 void PixelRays::set(RayLanes& rays, const std::array<double, 16>& x,
                     const std::array<double, 16>& y, std::size_t size) const {
   static_assert(RayLanes::kRays == 16);
-  const PixelLens lens{camera_.position,      forward_,        right_,    up_,
-                       half_width_,           half_height_,    pixels_x_, pixels_y_,
-                       camera_.window_center, camera_.parallel};
-  HWY_DYNAMIC_DISPATCH(SetPixelRays)(lens, x.data(), y.data(), rays);
+  HWY_DYNAMIC_DISPATCH(SetPixelRays)(lens_, x.data(), y.data(), rays);
   rays.size = size;
 }
 

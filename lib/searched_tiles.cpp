@@ -124,22 +124,23 @@ class SearchedTiles : public TileMaker {
     sought_.connected = is_classified(frame.scene(), frame.settings()) ? frame.gap() : -1;
   }
 
-  void make(const Tile& tile, Counts& counts) override {
+  void make(TileSource& tiles, Counts& counts) override {
     Bundles& bundles = bundles_.local();
     auto walk = [&](const typename Bundles::TileRay& ray) {
       pixels_.make_pixel(ray.place, counts);
     };
-    bundles.for_each(
-        frame_, tile,
-        [&] { find_segments(bundles.leaves, sought_, bundles.bundle, bundles.found); },
-        [&](const typename Bundles::TileRay& ray, std::size_t i) {
-          const SearchedRay& found = bundles.found[i];
-          if (found.declined()) return walk(ray);
-          ++counts.searched;
-          if (found.segments().empty() && background_) return counts.add(met(found));
-          pixels_.make_pixel(ray.place, counts, [&](auto& visit) { return give(found, visit); });
-        },
-        walk);
+    while (const auto tile = tiles.next())
+      bundles.for_each(
+          frame_, *tile,
+          [&] { find_segments(bundles.leaves, sought_, bundles.bundle, bundles.found); },
+          [&](const typename Bundles::TileRay& ray, std::size_t i) {
+            const SearchedRay& found = bundles.found[i];
+            if (found.declined()) return walk(ray);
+            ++counts.searched;
+            if (found.segments().empty() && background_) return counts.add(met(found));
+            pixels_.make_pixel(ray.place, counts, [&](auto& visit) { return give(found, visit); });
+          },
+          walk);
   }
 
  private:
@@ -177,7 +178,7 @@ class ExtremeTiles : public TileMaker {
     Searched<Walkable>::of(frame.scene(), walkable);
   }
 
-  void make(const Tile& tile, Counts& counts) override {
+  void make(TileSource& tiles, Counts& counts) override {
     Bundles& bundles = bundles_.local();
     auto walk = [&](const typename Bundles::TileRay& ray) {
       Pixel pixel;
@@ -185,26 +186,27 @@ class ExtremeTiles : public TileMaker {
       frame_.put_raw(ray.place, pixel.value(), pixel.seen());
     };
     const bool greatest = frame_.settings().mode == Mode::maximum;
-    bundles.for_each(
-        frame_, tile,
-        [&] {
-          if (greatest)
-            find_greatest(bundles.leaves, bundles.bundle, bundles.found, bundles.values);
-          else
-            find_least(bundles.leaves, bundles.bundle, bundles.found, bundles.values);
-        },
-        [&](const typename Bundles::TileRay& ray, std::size_t i) {
-          const SearchedRay& found = bundles.found[i];
-          if (found.declined()) return walk(ray);
-          ++counts.searched;
-          counts.add(met(found));
-          // As if the best segment were the only one.
-          Pixel pixel;
-          const float value = bundles.values[i];
-          if (std::isfinite(value)) pixel(Segment{0, 0, value, value, kNone});
-          frame_.put_raw(ray.place, pixel.value(), pixel.seen());
-        },
-        walk);
+    while (const auto tile = tiles.next())
+      bundles.for_each(
+          frame_, *tile,
+          [&] {
+            if (greatest)
+              find_greatest(bundles.leaves, bundles.bundle, bundles.found, bundles.values);
+            else
+              find_least(bundles.leaves, bundles.bundle, bundles.found, bundles.values);
+          },
+          [&](const typename Bundles::TileRay& ray, std::size_t i) {
+            const SearchedRay& found = bundles.found[i];
+            if (found.declined()) return walk(ray);
+            ++counts.searched;
+            counts.add(met(found));
+            // As if the best segment were the only one.
+            Pixel pixel;
+            const float value = bundles.values[i];
+            if (std::isfinite(value)) pixel(Segment{0, 0, value, value, kNone});
+            frame_.put_raw(ray.place, pixel.value(), pixel.seen());
+          },
+          walk);
   }
 
  private:

@@ -79,9 +79,9 @@ SeveralTiles::SeveralTiles(Frame& frame)
       hits_(any_classified(frame)),
       mixed_(frame.settings().mode == Mode::volume || frame.settings().mode == Mode::depth) {}
 
-void SeveralTiles::make(const Tile& tile, Counts& counts) {
+void SeveralTiles::make(TileSource& tiles, Counts& counts) {
   Rays rays(*this);
-  frame_.for_each_pixel(tile, [&](const PixelPlace& place) {
+  frame_.for_each_pixel(tiles, [&](const PixelPlace& place) {
     follow_all(place, rays, counts);
     settle_overlaps(place, rays, counts);
     if (mixed_)

@@ -25,7 +25,7 @@ class SeveralTiles : public TileMaker {
  public:
   explicit SeveralTiles(Frame& frame);
 
-  void make(const Tile& tile, Counts& counts) override;
+  void make(TileSource& tiles, Counts& counts) override;
 
   /// Of the first pixel in which meshes overlap that are not to; nothing where none do.
   const std::optional<FoundOverlap>& overlap() const { return overlap_; }

@@ -45,8 +45,8 @@ class TableTiles : public TileMaker {
   TableTiles(Frame& frame, const Walkable& walkable)
       : frame_(frame), walkable_(walkable), table_(make_table(frame)) {}
 
-  void make(const Tile& tile, Counts& counts) override {
-    frame_.for_each_pixel(tile, [&](const PixelPlace& place) {
+  void make(TileSource& tiles, Counts& counts) override {
+    frame_.for_each_pixel(tiles, [&](const PixelPlace& place) {
       TablePixel pixel{table_, frame_.settings().early_termination, frame_.tolerance(),
                        frame_.gap()};
       counts.add(follow_ray(frame_, walkable_, place, pixel));

@@ -13,11 +13,12 @@
 
 namespace plume {
 
-/// Makes tiles; safe to call from several threads, each with a tile and counts of its own.
+/// Makes tiles; safe to call from several threads, each with a source and counts of its own.
 class TileMaker {
  public:
   virtual ~TileMaker() = default;
-  virtual void make(const Tile& tile, Counts& counts) = 0;
+  /// All tiles that the source has.
+  virtual void make(TileSource& tiles, Counts& counts) = 0;
 };
 
 // All keep references to what they are given. Each is for what walkable form the scene has.

@@ -13,8 +13,8 @@ class VolumeTiles : public TileMaker {
   VolumeTiles(Frame& frame, const Walkable& walkable, const Integrator& integrator)
       : frame_(frame), walkable_(walkable), integrator_(integrator) {}
 
-  void make(const Tile& tile, Counts& counts) override {
-    frame_.for_each_pixel(tile, [&](const PixelPlace& pixel) { make_pixel(pixel, counts); });
+  void make(TileSource& tiles, Counts& counts) override {
+    frame_.for_each_pixel(tiles, [&](const PixelPlace& pixel) { make_pixel(pixel, counts); });
   }
 
   void make_pixel(const PixelPlace& place, Counts& counts) {

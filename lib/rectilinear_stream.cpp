@@ -1,0 +1,81 @@
+#include "plume/lib/rectilinear_stream.h"
+
+#include <cstdint>
+
+namespace plume {
+
+class PacketStream<RectilinearWalker>::Feeder : public PacketFeeder {
+ public:
+  Feeder(PacketStream& stream, StreamPixels& pixels) : stream_(stream), pixels_(pixels) {
+    stream.lanes_.clear();
+    stream.block_.size = 0;
+  }
+
+  const PacketStart* next(const PacketStart* finished) override {
+    const std::size_t place = stream_.lanes_.place(finished);
+    if (finished != nullptr) put(place);
+    for (; has_ray(); ++at_) {
+      const PixelPlace& pixel = stream_.pixels_[at_];
+      const Ray ray = stream_.block_.ray(at_);
+      switch (stream_.lanes_.set(place, ray, static_cast<std::uint32_t>(place))) {
+        case RectilinearRay::misses:
+          pixels_.miss(pixel);
+          continue;
+        case RectilinearRay::declined:
+          pixels_.decline(pixel);
+          continue;
+        case RectilinearRay::ready:
+          break;
+      }
+      ++at_;
+      const RectilinearStart* const start = stream_.lanes_.start(place);
+      stream_.rays_[place] = {ray, start->walker->t_in(), pixel};
+      stream_.colors_[place] = {};
+      if (!stream_.visits_.empty()) stream_.visits_[place] = {};
+      pixels_.begin(static_cast<std::uint32_t>(place));
+      return start;
+    }
+    return nullptr;
+  }
+
+ private:
+  bool has_ray() {
+    if (at_ < stream_.block_.size) return true;
+    if (ends_) return false;
+    at_ = 0;
+    ends_ = !pixels_.next(stream_.pixels_, stream_.block_);
+    return !ends_;
+  }
+
+  void put(std::size_t place) {
+    const PacketColor& color = stream_.colors_[place];
+    pixels_.put(stream_.rays_[place].pixel, color,
+                {color.opaque ? WalkEnd::stopped : WalkEnd::left, 1, color.cells},
+                static_cast<std::uint32_t>(place));
+  }
+
+  PacketStream& stream_;
+  StreamPixels& pixels_;
+  std::size_t at_ = 0;
+  bool ends_ = false;
+};
+
+void PacketStream<RectilinearWalker>::composite(PacketOptics optics, StreamPixels& pixels) {
+  if (optics.classified != nullptr) {
+    visits_.resize(kMostRays);
+    optics.classified->visits = visits_;
+  }
+  walk_by(
+      [&](std::span<PacketColor> colors, int, PacketFeeder& feeder) {
+        optics.colors = colors;
+        composite_packets(mesh_, optics, feeder);
+      },
+      pixels);
+}
+
+void PacketStream<RectilinearWalker>::walk_by(const PacketWalkOfRays& walk, StreamPixels& pixels) {
+  Feeder feeder(*this, pixels);
+  walk(colors_, 0, feeder);
+}
+
+}  // namespace plume
