@@ -52,12 +52,18 @@ void zoom(Camera& camera, double factor);
 
 struct RayLanes;
 
-/// What a picture's rays are worked out from.
+/// What the rays of a picture's pixels are worked out from.
 struct PixelLens {
-  std::array<double, 3> position{}, forward{}, right{}, up{};
-  double half_width = 0, half_height = 0, pixels_x = 0, pixels_y = 0;
-  std::array<double, 2> window_center{};
-  bool parallel = false;
+  std::array<double, 3> position{};       ///< Camera::position
+  std::array<double, 3> forward{};        ///< of length one, as are the next two
+  std::array<double, 3> right{};          ///< across the picture
+  std::array<double, 3> up{};             ///< and from its bottom to its top
+  double half_width = 0;                  ///< of the picture, at a distance of one or in parallel
+  double half_height = 0;                 ///< likewise
+  double pixels_x = 0;                    ///< of the picture
+  double pixels_y = 0;                    ///< likewise
+  std::array<double, 2> window_center{};  ///< Camera::window_center
+  bool parallel = false;                  ///< Camera::parallel
 };
 
 /// The rays of a picture's pixels.

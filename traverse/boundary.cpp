@@ -16,6 +16,7 @@
 
 #include "plume/mesh/error.h"
 #include "plume/traverse/frame_lanes.h"
+#include "plume/traverse/ways_in.h"
 
 namespace plume {
 namespace {
@@ -26,38 +27,37 @@ namespace {
 // is 2^-17. Wider boxes cost time, never a decision.
 constexpr float kMargin = 7.62939453125e-06f;
 
-using FaceCorners = std::span<const WalkablePoint* const>;
-
-// visit(FaceCorners, planar) for the loop of a face, seen from outside; whether walkers take it for
-// planar.
+// visit(BoundaryLoop) for a face.
 template <class Visit>
-auto with_corners(const WalkableTets& mesh, const WalkableTets::Boundary& face,
-                  const Visit& visit) {
+auto with_loop(const WalkableTets& mesh, const WalkableTets::Boundary& face, const Visit& visit) {
   std::array<const WalkablePoint*, 3> corners;
   for (std::size_t c = 0; c < 3; ++c) corners[c] = &mesh.points[face.loop[c]];
-  return visit(FaceCorners(corners), true);
+  return visit(BoundaryLoop{corners, FaceSurface::triangle});
 }
 
 template <class Visit>
-auto with_corners(const WalkableGrid& mesh, BoundaryFace face, const Visit& visit) {
+auto with_loop(const WalkableGrid& mesh, BoundaryFace face, const Visit& visit) {
   const std::uint32_t step[3] = {1, mesh.dimensions[0], mesh.dimensions[0] * mesh.dimensions[1]};
   const std::uint32_t axis = face.face / 2;
   const auto index = mesh.cell_index(face.cell);
-  const std::uint32_t base = mesh.first_point(index) + (face.face % 2) * step[axis];
-  std::uint32_t a = step[(axis + 1) % 3], b = step[(axis + 2) % 3];
-  if ((face.face % 2 == 1) == mesh.left_handed) std::swap(a, b);
-  const WalkablePoint* const first = &mesh.points[base];
+  const std::uint32_t a = step[(axis + 1) % 3], b = step[(axis + 2) % 3];
+  const WalkablePoint* const first =
+      &mesh.points[mesh.first_point(index) + (face.face % 2) * step[axis]];
   const std::array<const WalkablePoint*, 4> corners{first, first + a, first + a + b, first + b};
-  return visit(FaceCorners(corners), mesh.is_planar(index, face.face));
+  const FaceSurface surface =
+      mesh.is_planar(index, face.face) ? FaceSurface::planar : FaceSurface::patch;
+  return visit(BoundaryLoop{corners, surface, (face.face % 2 == 1) != mesh.left_handed});
 }
 
 template <class Visit>
-auto with_corners(const WalkableCells& mesh, BoundaryFace face, const Visit& visit) {
+auto with_loop(const WalkableCells& mesh, BoundaryFace face, const Visit& visit) {
   thread_local std::vector<const WalkablePoint*> corners;
   const auto loop = mesh.loop(face.face);
   corners.resize(loop.size());
   for (std::size_t c = 0; c < loop.size(); ++c) corners[c] = &mesh.points[loop[c]];
-  return visit(FaceCorners(corners), corners.size() == 3);
+  return visit(BoundaryLoop{corners, loop.size() == 3   ? FaceSurface::triangle
+                                     : loop.size() == 4 ? FaceSurface::patch
+                                                        : FaceSurface::other});
 }
 
 template <class Mesh>
@@ -66,8 +66,8 @@ void face_bounds(const RTCBoundsFunctionArguments* args) {
   std::array<float, 3> low, high;
   low.fill(std::numeric_limits<float>::infinity());
   high.fill(-std::numeric_limits<float>::infinity());
-  with_corners(mesh, mesh.boundary[args->primID], [&](FaceCorners corners, bool) {
-    for (const WalkablePoint* const corner : corners)
+  with_loop(mesh, mesh.boundary[args->primID], [&](const BoundaryLoop& loop) {
+    for (const WalkablePoint* const corner : loop.corners)
       for (std::size_t a = 0; a < 3; ++a) {
         low[a] = std::min(low[a], corner->position[a]);
         high[a] = std::max(high[a], corner->position[a]);
@@ -106,6 +106,7 @@ class SixteenRays {
   SixteenRays& operator=(const SixteenRays&) = delete;
 
   const FrameLanes& lanes() const { return lanes_; }
+  EntryList& found(std::size_t number) const { return found_[number]; }
   QueryRay<Walker> ray(const typename Walker::Mesh& mesh, std::size_t number) {
     Made& ray = rays_[number].made;
     if (!made_[number]) {
@@ -179,6 +180,27 @@ void for_each_way_in(const Walker& walker, const typename Walker::Boundary& face
   }
 }
 
+// Whether a walker takes quadrilaterals for what with_loop() says.
+template <class Walker>
+constexpr bool kAsLoopSays =
+    !std::is_same_v<Walker, HybridGridWalker> && !std::is_same_v<Walker, PluckerGridWalker>;
+
+// Takes a face's ways in; false where no list has become full.
+template <class Walker>
+bool take_ways_in(const QueryRay<Walker>& ray, const typename Walker::Boundary& face,
+                  std::uint32_t number) {
+  const int sign = ray.frame->sign();
+  EntryList& list = *ray.found;
+  bool found = false;
+  for_each_way_in(*ray.walker, face, sign, [&](const Crossing& place, std::uint32_t rank) {
+    const Entry entry{place, number, rank};
+    if (ray.previous && !before(*ray.previous, entry, sign)) return;
+    insert(list, entry, sign);
+    found = true;
+  });
+  return found && list.more;
+}
+
 template <class Walker>
 void face_intersect(const RTCIntersectFunctionNArguments* args) {
   auto& query = *reinterpret_cast<Query<Walker>*>(args->context);
@@ -186,33 +208,37 @@ void face_intersect(const RTCIntersectFunctionNArguments* args) {
   const auto& face = mesh.boundary[args->primID];
   RTCRayN* const rays = RTCRayHitN_RayN(args->rayhit, args->N);
   RTCHitN* const hits = RTCRayHitN_HitN(args->rayhit, args->N);
-  unsigned candidates = 0xFFFFu;
-  if (query.sixteen != nullptr)
-    candidates = with_corners(mesh, face, [&](FaceCorners corners, bool planar) {
-      return query.sixteen->lanes().may_enter(corners, planar);
-    });
+  // Only what lies before the last of a full list matters any more; behind it there may be others,
+  // which are not looked for. Another face may lie at the same place: the margin keeps its box in
+  // sight.
+  auto shorten = [&](unsigned i, const EntryList& list, int sign) {
+    RTCRayN_tfar(rays, args->N, i) =
+        ShearedFrame::parameter(list.entries[list.size - 1].place.z, sign) + kMargin;
+    RTCHitN_geomID(hits, args->N, i) = args->geomID;
+    RTCHitN_primID(hits, args->N, i) = args->primID;
+  };
+  if (query.sixteen == nullptr) {
+    if (args->valid[0] != 0 && take_ways_in(query.one, face, args->primID))
+      shorten(0, *query.one.found, query.one.frame->sign());
+    return;
+  }
+  const FrameLanes& lanes = query.sixteen->lanes();
+  WaysIn ways;
+  with_loop(mesh, face, [&](const BoundaryLoop& loop) { find_ways_in(lanes, loop, ways); });
+  if (!kAsLoopSays<Walker>) ways.once = 0;
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
     const unsigned id = RTCRayN_id(rays, args->N, i);
-    if ((candidates >> id & 1) == 0) continue;
-    const QueryRay<Walker> ray = query.sixteen ? query.sixteen->ray(mesh, id) : query.one;
-    const int sign = ray.frame->sign();
-    EntryList& list = *ray.found;
-    bool found = false;
-    for_each_way_in(*ray.walker, face, sign, [&](const Crossing& place, std::uint32_t rank) {
-      const Entry entry{place, args->primID, rank};
-      if (ray.previous && !before(*ray.previous, entry, sign)) return;
-      insert(list, entry, sign);
-      found = true;
-    });
-    if (!found || !list.more) continue;
-    // Only what lies before the last of a full list matters any more; behind it there may be
-    // others, which are not looked for. Another face may lie at the same place: the margin keeps
-    // its box in sight.
-    RTCRayN_tfar(rays, args->N, i) =
-        ray.frame->parameter(list.entries[list.size - 1].place.z) + kMargin;
-    RTCHitN_geomID(hits, args->N, i) = args->geomID;
-    RTCHitN_primID(hits, args->N, i) = args->primID;
+    const int sign = lanes.sign(id);
+    EntryList& list = query.sixteen->found(id);
+    bool is_full = false;
+    if ((ways.once >> id & 1) != 0) {
+      insert(list, {{ways.z[id], ways.scalar[id]}, args->primID, 0}, sign);
+      is_full = list.more;
+    } else if ((ways.maybe >> id & 1) != 0) {
+      is_full = take_ways_in(query.sixteen->ray(mesh, id), face, args->primID);
+    }
+    if (is_full) shorten(i, list, sign);
   }
 }
 

@@ -18,9 +18,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using DD = HWY_CAPPED(double, 8);
 using VD = hn::Vec<DD>;
 using MD = hn::Mask<DD>;
-using DF = HWY_CAPPED(float, 16);
-using VF = hn::Vec<DF>;
-using MF = hn::Mask<DF>;
 
 template <class D>
 HWY_INLINE unsigned BitsOf(D d, hn::Mask<D> mask) {
@@ -92,96 +89,6 @@ FrameLanes::Bits SetFrames(const RayLanes& rays, const LocalFrame& local,
   return bits;
 }
 
-// What a loop's corners and edges, one after the other, say of it.
-class LoopLanes {
- public:
-  LoopLanes(const FrameLanes::Arrays& frames, std::size_t first, std::size_t axis)
-      : slope_x_(hn::Load(DF(), frames.slope_x + first)),
-        slope_y_(hn::Load(DF(), frames.slope_y + first)),
-        offset_x_(hn::Load(DF(), frames.offset_x + first)),
-        offset_y_(hn::Load(DF(), frames.offset_y + first)),
-        sign_(hn::Load(DF(), frames.sign + first)),
-        axis_(axis) {}
-
-  struct Corner {
-    VF x, y;
-  };
-  HWY_INLINE Corner Shear(const WalkablePoint& p) const {
-    const DF d;
-    const VF px = hn::Set(d, p.position[(axis_ + 1) % 3]);
-    const VF py = hn::Set(d, p.position[(axis_ + 2) % 3]);
-    const VF pz = hn::Set(d, p.position[axis_]);
-    return {hn::Sub(hn::Sub(px, offset_x_), hn::Mul(slope_x_, pz)),
-            hn::Sub(hn::Sub(py, offset_y_), hn::Mul(slope_y_, pz))};
-  }
-
-  // Corners all to the right or all to the left are passed by, unless products of what is so small
-  // that it underflows say otherwise.
-  HWY_INLINE void AddCorner(const Corner& c) {
-    const DF d;
-    const VF beside = hn::Set(d, 1e-12f), tiny = hn::Set(d, 1e-25f);
-    const MF up = hn::Ge(c.y, hn::Zero(d));
-    above_ = hn::Or(above_, up);
-    below_ = hn::Or(below_, hn::Not(up));
-    not_right_ = hn::Or(not_right_, hn::Not(hn::Gt(c.x, beside)));
-    not_left_ = hn::Or(not_left_, hn::Not(hn::Lt(c.x, hn::Neg(beside))));
-    tiny_ = hn::Or(tiny_, hn::Not(hn::Gt(hn::Abs(c.y), tiny)));
-  }
-
-  // crossing() of sheared_frame.h.
-  HWY_INLINE void AddEdge(const Corner& a, const Corner& b) {
-    const DF d;
-    const VF zero = hn::Zero(d), one = hn::Set(d, 1);
-    const MF a_up = hn::Ge(a.y, zero), b_up = hn::Ge(b.y, zero);
-    const VF forth = hn::Mul(a.x, b.y), back = hn::Mul(b.x, a.y);
-    const MF rises = hn::And(hn::AndNot(a_up, b_up), hn::Gt(forth, back));
-    const MF falls = hn::And(hn::AndNot(b_up, a_up), hn::Gt(back, forth));
-    winding_ = hn::Add(winding_, hn::IfThenElseZero(rises, one));
-    winding_ = hn::Sub(winding_, hn::IfThenElseZero(falls, one));
-  }
-
-  HWY_INLINE unsigned MayEnter(std::size_t corners, bool planar) const {
-    const DF d;
-    const MF enters = hn::Lt(hn::Mul(winding_, sign_), hn::Zero(d));
-    // What is planar is not crossed without a winding.
-    if (planar) return BitsOf(d, enters);
-    const MF beside = hn::Or(hn::Not(hn::And(above_, below_)),
-                             hn::AndNot(tiny_, hn::Not(hn::And(not_right_, not_left_))));
-    const MF none = hn::Eq(winding_, hn::Zero(d));
-    if (corners == 4) return BitsOf(d, hn::Or(enters, hn::AndNot(beside, none)));
-    return BitsOf(d, hn::Or(enters, hn::Not(beside)));
-  }
-
- private:
-  const VF slope_x_, slope_y_, offset_x_, offset_y_, sign_;
-  const std::size_t axis_;
-  MF above_ = hn::MaskFromVec(hn::Zero(DF())), below_ = above_, not_right_ = above_;
-  MF not_left_ = above_, tiny_ = above_;
-  VF winding_ = hn::Zero(DF());
-};
-
-unsigned MayEnter(const FrameLanes::Arrays& frames, int axis,
-                  std::span<const WalkablePoint* const> corners, bool planar) {
-  const DF d;
-  const std::size_t n = corners.size();
-  unsigned bits = 0;
-  for (std::size_t i = 0; i < RayLanes::kRays; i += hn::Lanes(d)) {
-    LoopLanes loop(frames, i, static_cast<std::size_t>(axis));
-    const LoopLanes::Corner first = loop.Shear(*corners[0]);
-    if (!planar) loop.AddCorner(first);
-    LoopLanes::Corner last = first;
-    for (std::size_t c = 1; c < n; ++c) {
-      const LoopLanes::Corner next = loop.Shear(*corners[c]);
-      if (!planar) loop.AddCorner(next);
-      loop.AddEdge(last, next);
-      last = next;
-    }
-    loop.AddEdge(last, first);
-    bits |= loop.MayEnter(n, planar) << i;
-  }
-  return bits;
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace plume
 HWY_AFTER_NAMESPACE();
@@ -190,7 +97,6 @@ HWY_AFTER_NAMESPACE();
 namespace plume {
 
 HWY_EXPORT(SetFrames);
-HWY_EXPORT(MayEnter);
 
 void FrameLanes::set(const RayLanes& rays, const LocalFrame& local) {
   const Bits bits = HWY_DYNAMIC_DISPATCH(SetFrames)(rays, local, arrays_);
@@ -234,11 +140,6 @@ void FrameLanes::lines(std::array<float*, 3> start, std::array<float*, 3> step) 
     step[y_axis][i] = arrays_.slope_y[i] * sign;
     step[z_axis][i] = sign;
   }
-}
-
-unsigned FrameLanes::may_enter(std::span<const WalkablePoint* const> corners, bool planar) const {
-  if (!one_axis_) return 0xFFFFu;
-  return HWY_DYNAMIC_DISPATCH(MayEnter)(arrays_, axis(0), corners, planar);
 }
 
 }  // namespace plume

@@ -1,9 +1,8 @@
-/// Sixteen rays side by side: their frames, and what they have to do with a boundary face.
+/// Sixteen rays side by side, and their frames.
 #pragma once
 
 #include <array>
 #include <cstddef>
-#include <span>
 
 #include "plume/mesh/local_frame.h"
 #include "plume/traverse/ray.h"
@@ -45,6 +44,7 @@ class FrameLanes {
   /// Sets `frame` where it is: a copy of what was just written would wait for it. Requires
   /// is_valid().
   void put(std::size_t ray, ShearedFrame& frame) const;
+  int sign(std::size_t ray) const { return arrays_.sign[ray] > 0 ? 1 : -1; }
   int axis(std::size_t ray) const {
     return (axis_is_2_ >> ray & 1) != 0 ? 2 : (axis_is_1_ >> ray & 1) != 0 ? 1 : 0;
   }
@@ -52,12 +52,8 @@ class FrameLanes {
   /// ShearedFrame::start() and step() of all rays, by coordinate.
   void lines(std::array<float*, 3> start, std::array<float*, 3> step) const;
 
-  /// A bit for each ray that may come in through the loop of these corners, seen from outside: not
-  /// those that pass beside the hull of the corners, nor, for triangles and quadrilaterals, those
-  /// about which it winds as at a way out; of a face that is taken for planar none but those about
-  /// which it winds as at a way in. Takes the same bits from the same numbers as the walkers do.
-  /// All bits where the rays' longest axes differ. Means nothing for rays that are not valid.
-  unsigned may_enter(std::span<const WalkablePoint* const> corners, bool planar) const;
+  /// Whether the rays' longest axes are the same.
+  bool has_one_axis() const { return one_axis_; }
 
   /// As arrays, for the code that is compiled for each instruction set.
   struct Arrays {
@@ -65,6 +61,7 @@ class FrameLanes {
     alignas(64) float sign[kRays];
     alignas(64) double t_per_z[kRays], t_offset[kRays];
   };
+  const Arrays& arrays() const { return arrays_; }
   struct Bits {
     unsigned valid = 0, axis_is_1 = 0, axis_is_2 = 0;
   };

@@ -138,7 +138,8 @@ class ShearedFrame {
     return place(line_.slope_x * s, line_.slope_y * s, s);
   }
   /// That ray's parameter at this z.
-  float parameter(double z) const { return static_cast<float>(z * sign_) + kStart; }
+  float parameter(double z) const { return parameter(z, sign_); }
+  static float parameter(double z, int sign) { return static_cast<float>(z * sign) + kStart; }
 
  private:
   friend class FrameLanes;  // sets sixteen at once

@@ -23,10 +23,10 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 // Where channel values differ most, packets against twin.
 double worst_difference(const Scene& scene, const Camera& camera, double early_termination = 0,
-                        bool by_packets = true) {
+                        bool by_packets = true, int width = 61, int height = 47) {
   RenderSettings settings;
-  settings.width = 61;  // no multiple of a tile
-  settings.height = 47;
+  settings.width = width;  // 61 and 47: no multiple of a tile
+  settings.height = height;
   settings.early_termination = early_termination;
   const RenderResult packets = render(scene, camera, settings);
   settings.scalar_twin = true;
@@ -135,6 +135,17 @@ TEST_P(Packets, LeaveCamerasInsideToTheTwin) {
   camera.focal_point = {1, 0.6, 0.5};
   camera.view_angle = 100;
   EXPECT_EQ(worst_difference(scene, camera, 0, false), 0);
+}
+
+// Rays of one axis wait while those of another are walked, whole tiles of them.
+TEST_P(Packets, TakeRaysOfAllAxesInOnePicture) {
+  Scene scene(generate(GetParam(), {5, 0.2, 2}), {{"linear", {}}});
+  scene.set_transfer_function({{{0, {0, {0, 0, 1}}}, {6, {3, {1, 0, 0}}}}});
+  Camera camera = fitted_camera(scene.bounds(), {-1, -1, -1});
+  for (std::size_t a = 0; a < 3; ++a)
+    camera.position[a] += 0.6 * (camera.focal_point[a] - camera.position[a]);
+  camera.view_angle = 80;
+  EXPECT_LE(worst_difference(scene, camera, 0, true, 161, 143), kBound);
 }
 
 TEST_P(Packets, TakeCellData) {

@@ -1,4 +1,5 @@
-// First entries found for sixteen rays at a time are those of single rays.
+// First entries found for sixteen rays at a time are those of single rays, with every instruction
+// set.
 
 #include <gtest/gtest.h>
 
@@ -10,24 +11,32 @@
 #include <vector>
 
 #include "adversarial_rays.h"
+#include "hwy/targets.h"
 #include "plume/datasets/generate.h"
 #include "plume/mesh/validate.h"
 #include "plume/traverse/boundary.h"
+#include "plume/traverse/packets.h"
 
 namespace plume::test {
 namespace {
 
-// Rays in groups of one longest axis, as tiles have them, and as they come.
-template <class Walker>
-void expect_same_entries(const Mesh& user_mesh, const typename Walker::Mesh& mesh) {
-  const BoundaryIndex<Walker> boundary(mesh);
-  AdversarialRays make_ray(user_mesh, bounds_of(user_mesh.points), 17);
-  std::array<std::vector<Ray>, 4> groups;
+// Of one longest axis, as packets have them, and as they come.
+using Groups = std::array<std::vector<Ray>, 4>;
+
+Groups groups_of_rays(const Mesh& mesh) {
+  AdversarialRays make_ray(mesh, bounds_of(mesh.points), 17);
+  Groups groups;
   for (std::uint64_t i = 0; i < 6000; ++i) {
     const Ray ray = make_ray(i);
     groups[static_cast<std::size_t>(longest_axis(ray.direction))].push_back(ray);
     groups[3].push_back(ray);
   }
+  return groups;
+}
+
+template <class Walker>
+void expect_same_entries(const Groups& groups, const typename Walker::Mesh& mesh,
+                         const BoundaryIndex<Walker>& boundary) {
   std::size_t entries = 0;
   for (const auto& rays : groups) {
     std::array<EntryList, FrameLanes::kRays> found;
@@ -51,10 +60,24 @@ void expect_same_entries(const Mesh& user_mesh, const typename Walker::Mesh& mes
         ASSERT_EQ(found[i].entries[e].boundary, expected.entries[e].boundary) << "ray " << ray;
         ASSERT_EQ(found[i].entries[e].rank, expected.entries[e].rank) << "ray " << ray;
         ASSERT_EQ(found[i].entries[e].place.z, expected.entries[e].place.z) << "ray " << ray;
+        const float scalar = expected.entries[e].place.scalar;
+        ASSERT_EQ(found[i].entries[e].place.scalar, scalar) << "ray " << ray;
       }
     }
   }
   EXPECT_GT(entries, 4000u);
+}
+
+template <class Walker>
+void expect_same_entries(const Mesh& user_mesh, const typename Walker::Mesh& mesh) {
+  const BoundaryIndex<Walker> boundary(mesh);
+  const Groups groups = groups_of_rays(user_mesh);
+  for (std::int64_t all = hwy::SupportedTargets(); all != 0; all &= all - 1) {
+    limit_packet_instruction_sets(all & -all);
+    SCOPED_TRACE(packet_instruction_set());
+    expect_same_entries<Walker>(groups, mesh, boundary);
+  }
+  limit_packet_instruction_sets(0);
 }
 
 TEST(FirstEntries, AreThoseOfSingleRaysIntoTetrahedra) {
