@@ -101,7 +101,7 @@ std::optional<std::vector<Passage>> passages_of(const typename Walker::Mesh& mes
   for (auto entry = entries.first(boundary, walker, frame); entry;
        entry = entries.next(boundary, walker, frame)) {
     if (frame.t(entry->place.z) < ray.t_min) return std::nullopt;
-    // As lib/packet_tile.cpp has it.
+    // As lib/packet_stream.cpp has it.
     if (!passages.empty() && (passages.back().z_out - entry->place.z) * frame.sign() > 1e-6)
       return std::nullopt;
     passages.push_back({*entry, entry->place.z});
