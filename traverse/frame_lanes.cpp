@@ -7,24 +7,11 @@
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "plume/traverse/frame_lanes.cpp"
 #include "hwy/foreach_target.h"
-#include "hwy/highway.h"
+#include "plume/traverse/double_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-using DD = HWY_CAPPED(double, 8);
-using VD = hn::Vec<DD>;
-using MD = hn::Mask<DD>;
-
-template <class D>
-HWY_INLINE unsigned BitsOf(D d, hn::Mask<D> mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(d, mask, bytes);
-  return bytes[0] | static_cast<unsigned>(bytes[1]) << 8;
-}
 
 // ShearedFrame::set(), operation by operation.
 FrameLanes::Bits SetFrames(const RayLanes& rays, const LocalFrame& local,

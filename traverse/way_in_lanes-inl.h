@@ -12,27 +12,14 @@
 // clang-format on
 
 #include <cstddef>
-#include <cstdint>
 
 #include "hwy/highway.h"
+#include "plume/traverse/double_lanes-inl.h"
 #include "plume/traverse/ways_in.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
-
-namespace hn = hwy::HWY_NAMESPACE;
-
-using DD = HWY_CAPPED(double, 8);
-using VD = hn::Vec<DD>;
-using MD = hn::Mask<DD>;
-
-template <class D>
-HWY_INLINE unsigned BitsOf(D d, hn::Mask<D> mask) {
-  std::uint8_t bytes[8] = {};
-  hn::StoreMaskBits(d, mask, bytes);
-  return bytes[0] | static_cast<unsigned>(bytes[1]) << 8;
-}
 
 // A face's corners: in the frames of the rays, and what is the same in all of them.
 struct WayInCorners {

@@ -1,7 +1,6 @@
 #include "plume/traverse/ways_in.h"
 
 #include <cstddef>
-#include <cstdint>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "plume/traverse/ways_in.cpp"

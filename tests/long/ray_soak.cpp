@@ -8,6 +8,7 @@
 
 #include "plume/mesh/validate.h"
 #include "plume/tests/long/aimed_rays.h"
+#include "plume/tests/long/soak_entries.h"
 #include "plume/tests/long/soak_ways.h"
 #include "plume/traverse/trace.h"
 
@@ -173,6 +174,11 @@ SoakTally soak_cells(const Made<W>& mesh, std::uint64_t seed, std::uint64_t batc
   std::vector<std::uint64_t> ray_of;
   std::vector<Ray> chord_rays(mesh.fills_bounds ? rays : 0);
   TwinWalk<Form> twin, turned;
+  EntriesTogether<W> entries(mesh.form, mesh.boundary);
+  auto fail_entries = [&](const std::vector<std::uint64_t>& different) {
+    for (const std::uint64_t ray : different)
+      fail(tally.contradictions, ray, "other ways in, or at other places, among sixteen rays");
+  };
   for (; number < rays; ++number) {
     const Ray ray = make_ray(number);
     ++tally.rays;
@@ -181,6 +187,7 @@ SoakTally soak_cells(const Made<W>& mesh, std::uint64_t seed, std::uint64_t batc
       ++tally.aimless;
       continue;
     }
+    fail_entries(entries.add(ray, frame, number));
     walk_twin(mesh, frame, twin);
     const TraceWalk seen = walk_trace(mesh, ray);
     if (twin.lost || seen.result.end != WalkEnd::left) {
@@ -216,6 +223,7 @@ SoakTally soak_cells(const Made<W>& mesh, std::uint64_t seed, std::uint64_t batc
       tally.cells += twin.ways[p].cells;
     }
   }
+  fail_entries(entries.finish());
   tally.passages = ways.size();
   if (!has_packets(mesh.form)) return tally;
 

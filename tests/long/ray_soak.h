@@ -25,7 +25,8 @@ struct SoakTally {
   /// Rays that found no way out.
   std::uint64_t lost = 0;
   /// Rays whose passages contradict what is known otherwise: trace() and the walker alone do not
-  /// meet the same cells, segments run backwards or overlap; or, of one ray in 16 through a small
+  /// meet the same cells, segments run backwards or overlap; the first ways in are other ones, or
+  /// elsewhere, where sixteen rays are looked at together; or, of one ray in 16 through a small
   /// mesh, the ways in or out are not as many as those of all boundary faces, tried one by one.
   std::uint64_t contradictions = 0;
   /// Passages in which packets meet other cells than the twin, or in another order.

@@ -30,8 +30,8 @@ constexpr const char* kHelp =
   --threads=T   (1); the outcome is the same for any number
 
 Checks that no ray is lost, that packets of rays meet the cells of their scalar twin in its order,
-with every instruction set at hand, that rays turned around go back the way they came, and that
-lengths sum up to the chord. Meshes are of tetrahedra, of hexahedra in curvilinear grids, of mixed
+with every instruction set at hand, that sixteen rays looked at together come in where each alone
+does, that rays turned around go back the way they came, and that lengths sum up to the chord. Meshes are of tetrahedra, of hexahedra in curvilinear grids, of mixed
 cells and of rectilinear grids; `--form=NAME` takes those of one form: tetrahedra, grid, cells or
 rectilinear. Ends with 1 where any of that fails. The blunt fin is read from the
 directory PLUME_DATASETS, by default ../shared/datasets.
