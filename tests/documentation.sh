@@ -3,11 +3,11 @@
 #
 #   documentation.sh SOURCE BUILD PAGE
 #
-# `./dev test` is not run again: it is what runs this. Blocks that name $PLUME_DATASETS are skipped,
-# loudly, where there is no such directory, and blocks that turn an option PLUME_WITH_... on where the
-# build has it off: it is not for a test to change its licence. Pictures that the page shows from a folder
-# of its own name are to be among those that its commands make; KEEP_PICTURES names a directory to
-# copy them to.
+# `./dev test` is not run again: it is what runs this. Blocks that name $PLUME_DATASETS, or a variable that
+# such a block sets, are skipped, loudly, where there is no such directory, and blocks that turn an option
+# PLUME_WITH_... on where the build has it off: it is not for a test to change its licence. Pictures that
+# the page shows from a folder of its own name are to be among those that its commands make; KEEP_PICTURES
+# names a directory to copy them to.
 set -euo pipefail
 source_dir=$1 build_dir=$2 page=$3
 work=$(mktemp -d)
@@ -20,10 +20,12 @@ export PLUME_DATASETS=${PLUME_DATASETS:-$source_dir/../shared/datasets}
 
 awk '/^```sh$/ {inside = 1; n++; next} /^```/ {inside = 0} inside {print > ("block" n)}' "$page"
 ran=0 skipped=0
+datasets='PLUME_DATASETS' # and the variables that are made of it
 for block in $(ls block* | sort -V); do
-  if grep -q PLUME_DATASETS "$block" && [ ! -d "$PLUME_DATASETS" ]; then
+  if grep -qE "\\$\\{?($datasets)\b" "$block" && [ ! -d "$PLUME_DATASETS" ]; then
     echo "SKIPPED: no directory $PLUME_DATASETS (set PLUME_DATASETS) for:"
     cat "$block"
+    datasets+=$(sed -nE 's/^([a-z_]+)=.*/|\1/p' "$block" | tr -d '\n')
     skipped=1
     continue
   fi
