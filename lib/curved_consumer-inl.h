@@ -19,67 +19,49 @@
 #include "hwy/highway.h"
 #include "plume/lib/composite_by-inl.h"
 #include "plume/lib/curved_packets.h"
+#include "plume/lib/inner_consumer-inl.h"
 #include "plume/lib/volume_consumer-inl.h"
 #include "plume/preint/classified_form-inl.h"
 #include "plume/preint/curved_lanes-inl.h"
-#include "plume/traverse/inner_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
 
-// VolumeConsumer that knows the scalar inside of each cell.
-template <class Mesh, class Pieces>
-struct InnerConsumer : VolumeConsumer<Pieces> {
-  using Base = VolumeConsumer<Pieces>;
-
-  InnerLanes<Mesh> inside;
-  float tolerance;
-
-  InnerConsumer(const Base& linear, const Mesh& mesh, int axis, float off_by)
-      : Base(linear), inside(mesh, axis), tolerance(off_by) {}
-
-  void begin(std::size_t packet, std::size_t lane, const PacketStart& start) {
-    Base::begin(packet, lane, start);
-    inside.begin(packet, lane, start);
-  }
-  HWY_INLINE void ends_at(std::size_t packet, VF z) { inside.ends_at(packet, z); }
-};
-
 // With kInner scalars inside of each cell.
 template <std::size_t kInner, class Mesh, class Pieces>
-struct CurvedConsumer : InnerConsumer<Mesh, Pieces> {
-  using Base = VolumeConsumer<Pieces>;
-  using InnerConsumer<Mesh, Pieces>::InnerConsumer;
-  using InnerConsumer<Mesh, Pieces>::inside;
-  using InnerConsumer<Mesh, Pieces>::tolerance;
+class CurvedConsumer final : public InnerConsumerOf<Mesh, VolumeConsumer<Pieces>> {
+ public:
+  CurvedConsumer(const VolumeConsumer<Pieces>& linear, const Mesh& mesh, int axis, float off_by)
+      : InnerConsumerOf<Mesh, VolumeConsumer<Pieces>>(linear, mesh, axis), tolerance_(off_by) {}
 
-  // Not inlined: it is long, and walks have several copies of where it is called.
-  HWY_NOINLINE MF visit(std::size_t packet, MF active, VF length, VF s_in, VF s_out, VU cells) {
+  MF visit(std::size_t packet, MF active, VF length, VF s_in, VF s_out, VU cells) override {
     const DF d;
     VF inner[kInner];
-    const MF curved = inside.template At<kInner>(packet, active, cells, inner);
+    const MF curved = this->inside.template At<kInner>(packet, active, cells, inner);
     const optics::CurvedLanes<kInner> scalar(curved, s_in, s_out, inner);
     MF done = hn::MaskFromVec(hn::Zero(d));
-    scalar.ForEachLinearPart(active, length, tolerance, [&](MF on, VF from, VF to, VF part) {
-      done = Base::visit(packet, on, part, from, to, cells);
+    scalar.ForEachLinearPart(active, length, tolerance_, [&](MF on, VF from, VF to, VF part) {
+      done = this->base.visit(packet, on, part, from, to, cells);
     });
     return done;
   }
+
+ private:
+  const float tolerance_;
 };
 
 // With cubics that follow the scalar inside of each cell (ScalarOrder::adaptive).
 template <class Mesh, class Pieces>
-struct AdaptiveConsumer : InnerConsumer<Mesh, Pieces> {
-  using Base = VolumeConsumer<Pieces>;
-  using InnerConsumer<Mesh, Pieces>::InnerConsumer;
-  using InnerConsumer<Mesh, Pieces>::inside;
-  using InnerConsumer<Mesh, Pieces>::tolerance;
+class AdaptiveConsumer final : public InnerConsumerOf<Mesh, VolumeConsumer<Pieces>> {
+ public:
+  AdaptiveConsumer(const VolumeConsumer<Pieces>& linear, const Mesh& mesh, int axis, float off_by)
+      : InnerConsumerOf<Mesh, VolumeConsumer<Pieces>>(linear, mesh, axis), tolerance_(off_by) {}
 
-  HWY_NOINLINE MF visit(std::size_t packet, MF active, VF length, VF s_in, VF s_out, VU cells) {
+  MF visit(std::size_t packet, MF active, VF length, VF s_in, VF s_out, VU cells) override {
     MF done = hn::MaskFromVec(hn::Zero(DF()));
-    inside.ForEachClosePart(
-        packet, active, cells, s_in, s_out, tolerance,
+    this->inside.ForEachClosePart(
+        packet, active, cells, s_in, s_out, tolerance_,
         [&](MF on, MF curved, VF from, VF to, VF s_from, VF s_to, const VF(&inner)[2]) {
           const optics::CurvedLanes<2> scalar(curved, s_from, s_to, inner);
           done = hn::Or(done, add(packet, on, hn::Mul(length, hn::Sub(to, from)), scalar));
@@ -92,11 +74,13 @@ struct AdaptiveConsumer : InnerConsumer<Mesh, Pieces> {
   // Not inlined, as it is called from more than one place.
   HWY_NOINLINE MF add(std::size_t packet, MF on, VF length, const optics::CurvedLanes<2>& scalar) {
     MF done = hn::MaskFromVec(hn::Zero(DF()));
-    scalar.ForEachLinearPart(on, length, tolerance, [&](MF still, VF from, VF to, VF part) {
-      done = Base::visit(packet, still, part, from, to, hn::Zero(DU()));
+    scalar.ForEachLinearPart(on, length, tolerance_, [&](MF still, VF from, VF to, VF part) {
+      done = this->base.visit(packet, still, part, from, to, hn::Zero(DU()));
     });
     return done;
   }
+
+  const float tolerance_;
 };
 
 template <class Mesh>
@@ -108,7 +92,7 @@ void CompositeCurved(const Mesh& mesh, const CurvedPackets& packets, int axis,
   WithTable(packets.volume->pieces, [&](const auto& table) {
     using Table = std::decay_t<decltype(table)>;
     const VolumeConsumer<Table> linear{*packets.volume, table, nullptr, enough, packets.colors};
-    auto walk = [&](auto consumer) { Walk(mesh, axis, consumer, feeder); };
+    auto walk = [&](InnerConsumer<Mesh>&& consumer) { Walk(mesh, axis, consumer, feeder); };
     if (packets.order == ScalarOrder::quadratic)
       walk(CurvedConsumer<1, Mesh, Table>(linear, mesh, axis, tolerance));
     else if (packets.order == ScalarOrder::cubic)

@@ -15,9 +15,9 @@
 #include <utility>
 
 #include "hwy/highway.h"
+#include "plume/lib/inner_consumer-inl.h"
 #include "plume/lib/mode_consumers-inl.h"
 #include "plume/preint/curved_lanes-inl.h"
-#include "plume/traverse/inner_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plume {
@@ -25,45 +25,30 @@ namespace HWY_NAMESPACE {
 
 // A mode's consumer that is given polynomials, with kInner scalars inside of each cell.
 template <std::size_t kInner, class Mesh, class Base>
-struct CurvedMode : Base {
-  InnerLanes<Mesh> inside;
+class CurvedMode final : public InnerConsumerOf<Mesh, Base> {
+ public:
+  using InnerConsumerOf<Mesh, Base>::InnerConsumerOf;
 
-  CurvedMode(const Base& base, const Mesh& mesh, int axis) : Base(base), inside(mesh, axis) {}
-
-  void begin(std::size_t packet, std::size_t lane, const PacketStart& start) {
-    Base::begin(packet, lane, start);
-    inside.begin(packet, lane, start);
-  }
-  HWY_INLINE void ends_at(std::size_t packet, VF z) {
-    inside.ends_at(packet, z);
-    if constexpr (requires(Base base) { base.ends_at(packet, z); }) Base::ends_at(packet, z);
-  }
-  // Not inlined: it is long, and walks have several copies of where it is called.
-  HWY_NOINLINE MF visit(std::size_t packet, MF active, VF way, VF s_in, VF s_out, VU cells) {
+  MF visit(std::size_t packet, MF active, VF way, VF s_in, VF s_out, VU cells) override {
     VF inner[kInner];
-    const MF curved = inside.template At<kInner>(packet, active, cells, inner);
+    const MF curved = this->inside.template At<kInner>(packet, active, cells, inner);
     const optics::CurvedLanes<kInner> scalar(curved, s_in, s_out, inner);
-    return Base::visit_curved(packet, active, way, s_in, s_out, scalar);
+    if constexpr (requires(Base base) { base.ends_at(packet, way); })
+      this->base.ends_at(packet, this->inside.EndsAt(packet));
+    return this->base.visit_curved(packet, active, way, s_in, s_out, scalar);
   }
 };
 
 // ... given cubics that follow the scalar inside of each cell (ScalarOrder::adaptive).
 template <class Mesh, class Base>
-struct AdaptiveMode : Base {
-  InnerLanes<Mesh> inside;
+class AdaptiveMode final : public InnerConsumerOf<Mesh, Base> {
+ public:
+  using InnerConsumerOf<Mesh, Base>::InnerConsumerOf;
 
-  AdaptiveMode(const Base& base, const Mesh& mesh, int axis) : Base(base), inside(mesh, axis) {}
-
-  void begin(std::size_t packet, std::size_t lane, const PacketStart& start) {
-    Base::begin(packet, lane, start);
-    inside.begin(packet, lane, start);
-  }
-  HWY_INLINE void ends_at(std::size_t packet, VF z) { inside.ends_at(packet, z); }
-
-  HWY_NOINLINE MF visit(std::size_t packet, MF active, VF way, VF s_in, VF s_out, VU cells) {
+  MF visit(std::size_t packet, MF active, VF way, VF s_in, VF s_out, VU cells) override {
     MF done = NoLanes();
-    inside.ForEachClosePart(
-        packet, active, cells, s_in, s_out, this->packets.tolerance,
+    this->inside.ForEachClosePart(
+        packet, active, cells, s_in, s_out, this->base.packets.tolerance,
         [&](MF on, MF curved, VF from, VF to, VF s_from, VF s_to, const VF(&inner)[2]) {
           done = hn::Or(done, add(packet, hn::AndNot(done, on), curved,
                                   hn::Mul(way, hn::Sub(to, from)), to, s_from, s_to, inner));
@@ -77,9 +62,9 @@ struct AdaptiveMode : Base {
   HWY_NOINLINE MF add(std::size_t packet, MF on, MF curved, VF way, VF to, VF s_from, VF s_to,
                       const VF (&inner)[2]) {
     if constexpr (requires(Base base) { base.ends_at(packet, way); })
-      Base::ends_at(packet, inside.Z(packet, to));
+      this->base.ends_at(packet, this->inside.Z(packet, to));
     const optics::CurvedLanes<2> scalar(curved, s_from, s_to, inner);
-    return Base::visit_curved(packet, on, way, s_from, s_to, scalar);
+    return this->base.visit_curved(packet, on, way, s_from, s_to, scalar);
   }
 };
 
@@ -87,7 +72,7 @@ template <class Mesh>
 void ReduceCurved(const Mesh& mesh, const ModePackets& packets, int axis, PacketFeeder& feeder) {
   ReduceBy<false>(packets, {}, [&](const auto& base) {
     using Base = std::decay_t<decltype(base)>;
-    auto walk = [&](auto consumer) { Walk(mesh, axis, consumer, feeder); };
+    auto walk = [&](InnerConsumer<Mesh>&& consumer) { Walk(mesh, axis, consumer, feeder); };
     if (packets.order == ScalarOrder::quadratic)
       walk(CurvedMode<1, Mesh, Base>(base, mesh, axis));
     else if (packets.order == ScalarOrder::cubic)

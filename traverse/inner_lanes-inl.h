@@ -54,6 +54,10 @@ class InnerLanes {
     hn::Store(z, d, mine.z_out);
   }
 
+  HWY_INLINE VF EndsAt(std::size_t packet) const {
+    return hn::Load(DF(), lanes_[packet].z_out);
+  }
+
   // The local z at a share of the lanes' ways through their cells.
   HWY_INLINE VF Z(std::size_t packet, VF share) const {
     const DF d;
