@@ -1,7 +1,7 @@
 # What `cmake --install` puts where, by component (docs/embedding.md says what is promised):
 #
 #   core  headers and static libraries without VTK: plume::core
-#   io    files in and out, with VTK and OpenImageIO: plume::io
+#   io    files in and out, with VTK, libpng and OpenEXR: plume::io
 #   c     the C interface, one shared library that needs nothing of ours: plume::c
 #   vtk   VTK's classes, a mapper and an image filter, with what VTK draws with: plume::vtk
 #
@@ -55,7 +55,7 @@ function(plume_install_package)
   # Before 1.0 a minor version may change anything.
   write_basic_package_version_file(plume-config-version.cmake COMPATIBILITY SameMinorVersion)
   install(FILES ${PROJECT_BINARY_DIR}/plume-config.cmake
-                ${PROJECT_BINARY_DIR}/plume-config-version.cmake cmake/openimageio.cmake
+                ${PROJECT_BINARY_DIR}/plume-config-version.cmake
           DESTINATION ${PLUME_INSTALL_CMAKEDIR})
 
   file(RELATIVE_PATH up /prefix/${PLUME_INSTALL_PKGCONFIGDIR} /prefix)

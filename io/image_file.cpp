@@ -1,16 +1,17 @@
 #include "plume/io/image_file.h"
 
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <limits>
-#include <memory>
+#include <fstream>
+#include <iterator>
+#include <optional>
 #include <set>
+#include <span>
 
+#include "plume/io/exr_bytes.h"
+#include "plume/io/png_bytes.h"
 #include "plume/io/whole_file.h"
 #include "plume/lib/srgb.h"
 #include "plume/mesh/error.h"
@@ -80,64 +81,26 @@ std::array<double, 4> display_pixel(const float* pixel, const ImageFileOptions& 
 }
 
 /// A NaN would turn into any integer; here it becomes 0.
-template <class T>
-T quantized(double value) {
-  constexpr double top = std::numeric_limits<T>::max();
-  return value >= 0 ? static_cast<T>(std::lround(value * top)) : T{0};
+std::uint16_t quantized(double value, double top) {
+  return value >= 0 ? static_cast<std::uint16_t>(std::lround(value * top)) : std::uint16_t{0};
 }
 
-template <class T>
-std::vector<T> png_pixels(const Image& image, const ImageFileOptions& options) {
-  const std::size_t channels = options.background[0] >= 0 ? 3 : 4;
-  std::vector<T> pixels;
-  pixels.reserve(image.rgba.size() / 4 * channels);
-  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
-    const auto display = display_pixel(&image.rgba[i], options);
-    for (std::size_t c = 0; c < channels; ++c) pixels.push_back(quantized<T>(display[c]));
-  }
-  return pixels;
-}
-
-/// R, G, B, A and the further channels, interleaved.
-std::vector<float> exr_pixels(const Image& image) {
-  std::vector<float> pixels;
-  pixels.reserve(image.rgba.size() / 4 * (4 + image.channels.size()));
-  for (std::size_t i = 0; i < image.rgba.size() / 4; ++i) {
-    pixels.insert(pixels.end(), &image.rgba[4 * i], &image.rgba[4 * i] + 4);
-    for (const Channel& channel : image.channels) pixels.push_back(channel.values[i]);
-  }
-  return pixels;
-}
-
-/// OpenImageIO's last word, on one line.
+/// What a library says, on one line.
 std::string one_line(std::string message) {
   std::replace(message.begin(), message.end(), '\n', ' ');
   return message;
 }
 
-/// Encodes in memory: OpenImageIO's own files lose errors of the last buffer, which is flushed when
-/// the file is closed, so that a full disk would pass for a success.
-std::vector<unsigned char> encoded(const char* format, const OIIO::ImageSpec& spec,
-                                   const void* pixels, const fs::path& file) {
-  std::vector<unsigned char> bytes;
-  OIIO::Filesystem::IOVecOutput memory(bytes);
-  const auto output = OIIO::ImageOutput::create(format);
-  if (!output) {
-    fail(file, "not written: OpenImageIO lacks the format " + std::string(format) + " (" +
-                   one_line(OIIO::geterror()) + "); install it with that format");
-  }
-  if (!output->set_ioproxy(&memory) || !output->open(file.filename().string(), spec) ||
-      !output->write_image(spec.format, pixels) || !output->close()) {
-    fail(file, "not written: OpenImageIO could not encode it (" + one_line(output->geterror()) +
-                   "); try a smaller image or another format");
-  }
-  return bytes;
+/// Pictures are encoded in memory and written whole: the libraries' own files lose errors of the
+/// last buffer, which is flushed when the file is closed, so that a full disk would pass for a
+/// success.
+void write_bytes(const fs::path& file, const std::vector<unsigned char>& bytes) {
+  write_whole_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
 }
 
-void write_pixels(const char* format, const OIIO::ImageSpec& spec, const void* pixels,
-                  const fs::path& file) {
-  const std::vector<unsigned char> bytes = encoded(format, spec, pixels, file);
-  write_whole_file(file, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+[[noreturn]] void fail_to_encode(const fs::path& file, const std::string& why) {
+  fail(file, "not written: it could not be encoded (" + one_line(why) +
+                 "); try a smaller image or another format");
 }
 
 void write_png(const Image& image, const fs::path& file, const ImageFileOptions& options) {
@@ -145,46 +108,85 @@ void write_png(const Image& image, const fs::path& file, const ImageFileOptions&
     fail(file, "not written: a PNG of " + std::to_string(options.png_bits) +
                    " bits per channel; choose 8 or 16");
   }
-  const bool opaque = options.background[0] >= 0;
-  OIIO::ImageSpec spec(image.width, image.height, opaque ? 3 : 4,
-                       options.png_bits == 8 ? OIIO::TypeDesc::UINT8 : OIIO::TypeDesc::UINT16);
-  spec.attribute("oiio:ColorSpace", "sRGB");
-  // The values are un-premultiplied already.
-  spec.attribute("oiio:UnassociatedAlpha", 1);
-  for (const auto& [name, value] : options.metadata) spec.attribute(name, value);
-  if (options.png_bits == 8) {
-    write_pixels("png", spec, png_pixels<std::uint8_t>(image, options).data(), file);
-  } else {
-    write_pixels("png", spec, png_pixels<std::uint16_t>(image, options).data(), file);
+  PngPicture picture;
+  picture.width = static_cast<std::uint32_t>(image.width);
+  picture.height = static_cast<std::uint32_t>(image.height);
+  picture.channels = options.background[0] >= 0 ? 3 : 4;
+  picture.bits = options.png_bits;
+  const double top = picture.bits == 8 ? 255 : 65535;
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  picture.samples.reserve(image.rgba.size() / 4 * channels);
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+    const auto display = display_pixel(&image.rgba[i], options);
+    for (std::size_t c = 0; c < channels; ++c)
+      picture.samples.push_back(quantized(display[c], top));
   }
+  std::string error;
+  const auto bytes = encode_png(picture, options.metadata, error);
+  if (bytes.empty()) fail_to_encode(file, error);
+  write_bytes(file, bytes);
 }
 
 void write_exr(const Image& image, const fs::path& file, const ImageFileOptions& options) {
-  OIIO::ImageSpec spec(image.width, image.height, static_cast<int>(4 + image.channels.size()),
-                       OIIO::TypeDesc::FLOAT);
-  spec.channelnames = {"R", "G", "B", "A"};
-  for (const Channel& channel : image.channels) spec.channelnames.push_back(channel.name);
-  spec.alpha_channel = 3;
-  spec.attribute("oiio:ColorSpace", "Linear");
-  spec.attribute("compression", "zip");
-  for (const auto& [name, value] : options.metadata) spec.attribute(name, value);
-  write_pixels("openexr", spec, exr_pixels(image).data(), file);
+  std::vector<unsigned char> bytes;
+  try {
+    bytes = encode_exr(image, options.metadata);
+  } catch (const std::exception& error) {
+    fail_to_encode(file, error.what());
+  }
+  write_bytes(file, bytes);
 }
 
-/// Puts a PNG's values, or an EXR's first four channels, into `image`.
-void take_colors(const OIIO::ImageSpec& spec, const std::vector<float>& pixels, Format format,
-                 Image& image) {
-  const auto channels = static_cast<std::size_t>(spec.nchannels);
-  const std::size_t colors = std::min<std::size_t>(channels, 4);
+std::vector<unsigned char> bytes_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::vector<unsigned char> bytes{std::istreambuf_iterator<char>(stream), {}};
+  if (!stream) fail(file, "cannot be read (it cannot be opened); check the path");
+  return bytes;
+}
+
+void expect_colors(const fs::path& file, int channels, bool has_colors) {
+  if (!has_colors)
+    fail(file, "has " + std::to_string(channels) +
+                   " channels; write_image() writes red, green and blue at least");
+}
+
+Image read_png(const fs::path& file, std::span<const unsigned char> bytes) {
+  if (!is_png(bytes)) fail(file, "cannot be read (it is no PNG); check the path");
+  std::string error;
+  const PngPicture picture = decode_png(bytes, error);
+  if (!error.empty()) fail(file, "is damaged (" + one_line(error) + "); write it again");
+  expect_colors(file, picture.channels, picture.channels >= 3);
+
+  Image image;
+  image.width = static_cast<int>(picture.width);
+  image.height = static_cast<int>(picture.height);
+  const auto channels = static_cast<std::size_t>(picture.channels);
+  const float top = picture.bits == 16 ? 65535.0f : 255.0f;
+  image.rgba.resize(picture.samples.size() / channels * 4);
   for (std::size_t i = 0; i < image.rgba.size() / 4; ++i) {
-    float* out = &image.rgba[4 * i];
-    out[3] = 1;
-    for (std::size_t c = 0; c < colors; ++c) out[c] = pixels[i * channels + c];
-    if (format == Format::exr) continue;
+    const std::uint16_t* const in = &picture.samples[i * channels];
+    float* const out = &image.rgba[4 * i];
+    out[3] = channels == 4 ? static_cast<float>(in[3]) / top : 1;
     for (std::size_t c = 0; c < 3; ++c) {
-      out[c] = static_cast<float>(srgb_to_linear(static_cast<double>(out[c])) *
-                                  static_cast<double>(out[3]));
+      const double display = static_cast<double>(static_cast<float>(in[c]) / top);
+      out[c] = static_cast<float>(srgb_to_linear(display) * static_cast<double>(out[3]));
     }
+  }
+  return image;
+}
+
+Image read_exr(const fs::path& file, std::span<const unsigned char> bytes) {
+  std::optional<ExrPicture> picture;
+  try {
+    picture.emplace(bytes);
+  } catch (const std::exception& error) {
+    fail(file, "cannot be read (" + one_line(error.what()) + "); check the path");
+  }
+  expect_colors(file, picture->channel_count(), picture->has_colors());
+  try {
+    return picture->read();
+  } catch (const std::exception& error) {
+    fail(file, "is damaged (" + one_line(error.what()) + "); write it again");
   }
 }
 
@@ -204,34 +206,8 @@ void check_image_path(const fs::path& file) {
 
 Image read_image(const fs::path& file) {
   const Format format = format_of(file);
-  OIIO::ImageSpec raw;
-  raw.attribute("oiio:UnassociatedAlpha", 1);
-  const auto input = OIIO::ImageInput::open(file.string(), format == Format::png ? &raw : nullptr);
-  if (!input) fail(file, "cannot be read (" + one_line(OIIO::geterror()) + "); check the path");
-  const OIIO::ImageSpec spec = input->spec();
-  if (spec.nchannels < 3) {
-    fail(file,
-         "has " + std::to_string(spec.nchannels) + " channels; write_image() writes at least 3");
-  }
-
-  const auto channels = static_cast<std::size_t>(spec.nchannels);
-  std::vector<float> pixels(static_cast<std::size_t>(spec.width) *
-                            static_cast<std::size_t>(spec.height) * channels);
-  if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels.data())) {
-    fail(file, "is damaged (" + one_line(input->geterror()) + "); write it again");
-  }
-
-  Image image;
-  image.width = spec.width;
-  image.height = spec.height;
-  image.rgba.resize(pixels.size() / channels * 4);
-  take_colors(spec, pixels, format, image);
-  for (std::size_t c = 4; c < channels; ++c) {
-    Channel channel{spec.channelnames[c], {}};
-    for (std::size_t i = c; i < pixels.size(); i += channels) channel.values.push_back(pixels[i]);
-    image.channels.push_back(std::move(channel));
-  }
-  return image;
+  const std::vector<unsigned char> bytes = bytes_of(file);
+  return format == Format::png ? read_png(file, bytes) : read_exr(file, bytes);
 }
 
 }  // namespace plume

@@ -13,7 +13,7 @@ check() { # the root of a source tree
       grep -vE "#include +[\"<]plume/($folder|$allowed)/"; then
       bad=1
     fi
-    if [ "$folder" != io ] && [ "$folder" != vtk ] && grep -rnE '#include +["<](vtk[A-Z]|OpenImageIO/)' "$root/$folder" \
+    if [ "$folder" != io ] && [ "$folder" != vtk ] && grep -rnE '#include +["<](vtk[A-Z]|OpenEXR/|png\.h)' "$root/$folder" \
       --include='*.h' --include='*.cpp'; then
       bad=1
     fi

@@ -1,4 +1,5 @@
-# plume::openimageio, if there is OpenImageIO; here and from an installed plume-config.cmake.
+# plume::openimageio, which the tests read pictures with: it shares no code with what wrote them but what
+# it calls itself.
 #
 # Debian's OpenImageIO config names tools, Python modules and OpenCV headers that its -dev package
 # does not bring, and fails without them; header and libraries are all that is needed.
@@ -11,4 +12,7 @@ if(OPENIMAGEIO_INCLUDE_DIR AND OPENIMAGEIO_LIBRARY AND OPENIMAGEIO_UTIL_LIBRARY
   target_include_directories(plume::openimageio SYSTEM INTERFACE ${OPENIMAGEIO_INCLUDE_DIR})
   target_link_libraries(plume::openimageio INTERFACE ${OPENIMAGEIO_LIBRARY}
                                                      ${OPENIMAGEIO_UTIL_LIBRARY})
+endif()
+if(NOT TARGET plume::openimageio)
+  message(FATAL_ERROR "OpenImageIO is not installed (Debian: libopenimageio-dev)")
 endif()
