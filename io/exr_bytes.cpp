@@ -56,7 +56,7 @@ class MemoryIn : public Imf::IStream {
   std::size_t place_ = 0;
 };
 
-// A channel of a picture whose first pixel is at `corner`: OpenEXR counts from (0, 0).
+// A channel of which `first` is the value of the window's first pixel.
 Imf::Slice slice_of(const float* first, std::size_t per_pixel, const Imath::Box2i& window,
                     double missing = 0) {
   const auto width = static_cast<std::size_t>(window.max.x - window.min.x + 1);

@@ -6,6 +6,7 @@
 #include <bit>
 #include <csetjmp>
 #include <cstring>
+#include <new>
 
 namespace plume {
 namespace {
@@ -20,9 +21,19 @@ namespace {
 // A warning is of what can be shown nonetheless.
 void on_warning(png_structp, png_const_charp) {}
 
+// No exception may pass through libpng.
+bool grow(std::vector<unsigned char>& all, const unsigned char* bytes, std::size_t size) {
+  try {
+    all.insert(all.end(), bytes, bytes + size);
+  } catch (const std::bad_alloc&) {
+    return false;
+  }
+  return true;
+}
+
 void append(png_structp png, png_bytep bytes, std::size_t size) {
-  auto& all = *static_cast<std::vector<unsigned char>*>(png_get_io_ptr(png));
-  all.insert(all.end(), bytes, bytes + size);
+  if (!grow(*static_cast<std::vector<unsigned char>*>(png_get_io_ptr(png)), bytes, size))
+    png_error(png, "no memory");
 }
 
 void nothing_to_flush(png_structp) {}
@@ -136,15 +147,19 @@ PngPicture decode_png(std::span<const unsigned char> bytes, std::string& error) 
     error = "no memory";
   } else {
     png_set_read_fn(png, &source, take);
-    if (decode_header(png, info, picture)) {
-      Rows rows(picture.height, png_get_rowbytes(png, info));
-      if (decode_rows(png, rows)) {
-        picture.samples.resize(rows.bytes.size() / (picture.bits == 16 ? 2 : 1));
-        if (picture.bits == 16)
-          std::memcpy(picture.samples.data(), rows.bytes.data(), rows.bytes.size());
-        else
-          std::copy(rows.bytes.begin(), rows.bytes.end(), picture.samples.begin());
+    try {
+      if (decode_header(png, info, picture)) {
+        Rows rows(picture.height, png_get_rowbytes(png, info));
+        if (decode_rows(png, rows)) {
+          picture.samples.resize(rows.bytes.size() / (picture.bits == 16 ? 2 : 1));
+          if (picture.bits == 16)
+            std::memcpy(picture.samples.data(), rows.bytes.data(), rows.bytes.size());
+          else
+            std::copy(rows.bytes.begin(), rows.bytes.end(), picture.samples.begin());
+        }
       }
+    } catch (const std::bad_alloc&) {
+      error = "no memory";
     }
   }
   png_destroy_read_struct(&png, &info, nullptr);

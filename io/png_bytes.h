@@ -18,9 +18,9 @@ struct PngPicture {
   std::vector<std::uint16_t> samples;  ///< 0 to 2^bits - 1
 };
 
-/// What libpng says of an error goes to `error`, and nothing is returned, where memory runs out or
-/// the picture is larger than PNG allows. Texts, name and value, are UTF-8; libpng leaves out those
-/// whose name it does not take (of 1 to 79 printable characters).
+/// What libpng says of an error goes to `error`, and nothing is returned, where memory runs out,
+/// the picture is larger than PNG allows, or a text has no name. Texts, name and value, are UTF-8;
+/// libpng shortens names to 79 characters.
 std::vector<unsigned char> encode_png(const PngPicture& picture,
                                       const std::vector<std::pair<std::string, std::string>>& texts,
                                       std::string& error);
@@ -28,7 +28,8 @@ std::vector<unsigned char> encode_png(const PngPicture& picture,
 /// Whether bytes begin as every PNG does.
 bool is_png(std::span<const unsigned char> bytes);
 
-/// Colours of a palette are looked up. Of a damaged file `error` says what libpng says.
+/// Colours of a palette are looked up. Of a damaged file, or where memory runs out, `error` says
+/// why, and the picture means nothing.
 PngPicture decode_png(std::span<const unsigned char> bytes, std::string& error);
 
 }  // namespace plume

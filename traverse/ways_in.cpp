@@ -6,15 +6,12 @@
 #define HWY_TARGET_INCLUDE "plume/traverse/ways_in.cpp"
 #include "hwy/foreach_target.h"
 #include "hwy/highway.h"
+#include "plume/traverse/lane_loads-inl.h"
 #include "plume/traverse/way_in_lanes-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace plume {
 namespace HWY_NAMESPACE {
-
-using DF = HWY_CAPPED(float, 16);
-using VF = hn::Vec<DF>;
-using MF = hn::Mask<DF>;
 
 // What a loop's corners and edges, one after the other, say of it.
 class LoopLanes {

@@ -190,6 +190,17 @@ TEST_F(ImageFile, MetadataIsKept) {
   }
 }
 
+TEST_F(ImageFile, MetadataWithoutANameIsRefused) {
+  ImageFileOptions options;
+  options.metadata = {{"", "nameless"}};
+  for (const char* name : {"picture.png", "picture.exr"}) {
+    const std::string message =
+        message_of([&] { write_image(random_image(3, 3), folder_ / name, options); });
+    EXPECT_TRUE(contains(message, std::string(name) + ": not written")) << message;
+  }
+  EXPECT_EQ(files(), 0u);
+}
+
 TEST_F(ImageFile, ReplacesAnExistingFile) {
   write_image(image_of(1, 1, {1, 1, 1, 1}), folder_ / "picture.exr");
   write_image(image_of(2, 1, {0, 0, 0, 1, 1, 0, 0, 1}), folder_ / "picture.exr");

@@ -26,7 +26,7 @@ using Groups = std::array<std::vector<Ray>, 4>;
 Groups groups_of_rays(const Mesh& mesh) {
   AdversarialRays make_ray(mesh, bounds_of(mesh.points), 17);
   Groups groups;
-  for (std::uint64_t i = 0; i < 2000; ++i) {
+  for (std::uint64_t i = 0; i < 6000; ++i) {
     const Ray ray = make_ray(i);
     groups[static_cast<std::size_t>(longest_axis(ray.direction))].push_back(ray);
     groups[3].push_back(ray);
@@ -34,11 +34,29 @@ Groups groups_of_rays(const Mesh& mesh) {
   return groups;
 }
 
+// Those of each ray by itself, by group.
+using Expected = std::array<std::vector<EntryList>, 4>;
+
 template <class Walker>
-void expect_same_entries(const Groups& groups, const typename Walker::Mesh& mesh,
+Expected entries_of_each(const Groups& groups, const typename Walker::Mesh& mesh,
                          const BoundaryIndex<Walker>& boundary) {
+  Expected expected;
+  for (std::size_t g = 0; g < groups.size(); ++g)
+    for (const Ray& ray : groups[g]) {
+      ShearedFrame frame;
+      EXPECT_TRUE(frame.set(ray, mesh.frame));
+      const Walker walker(mesh, frame);
+      expected[g].push_back(boundary.next_entries(walker, frame));
+    }
+  return expected;
+}
+
+template <class Walker>
+void expect_same_entries(const Groups& groups, const Expected& of_each,
+                         const typename Walker::Mesh& mesh, const BoundaryIndex<Walker>& boundary) {
   std::size_t entries = 0;
-  for (const auto& rays : groups) {
+  for (std::size_t g = 0; g < groups.size(); ++g) {
+    const std::vector<Ray>& rays = groups[g];
     std::array<EntryList, FrameLanes::kRays> found;
     for (std::size_t ray = 0; ray < rays.size(); ++ray) {
       const std::size_t i = ray % FrameLanes::kRays;
@@ -50,11 +68,9 @@ void expect_same_entries(const Groups& groups, const typename Walker::Mesh& mesh
         frames.set(lanes, mesh.frame);
         boundary.first_entries(frames, found);
       }
-      ShearedFrame frame;
-      ASSERT_TRUE(frame.set(rays[ray], mesh.frame));
-      const Walker walker(mesh, frame);
-      const EntryList expected = boundary.next_entries(walker, frame);
+      const EntryList& expected = of_each[g][ray];
       ASSERT_EQ(found[i].size, expected.size) << "ray " << ray;
+      ASSERT_EQ(found[i].more, expected.more) << "ray " << ray;
       entries += expected.size;
       for (std::uint32_t e = 0; e < expected.size; ++e) {
         ASSERT_EQ(found[i].entries[e].boundary, expected.entries[e].boundary) << "ray " << ray;
@@ -65,17 +81,18 @@ void expect_same_entries(const Groups& groups, const typename Walker::Mesh& mesh
       }
     }
   }
-  EXPECT_GT(entries, 1300u);
+  EXPECT_GT(entries, 4000u);
 }
 
 template <class Walker>
 void expect_same_entries(const Mesh& user_mesh, const typename Walker::Mesh& mesh) {
   const BoundaryIndex<Walker> boundary(mesh);
   const Groups groups = groups_of_rays(user_mesh);
+  const Expected of_each = entries_of_each<Walker>(groups, mesh, boundary);
   for (std::int64_t all = hwy::SupportedTargets(); all != 0; all &= all - 1) {
     limit_packet_instruction_sets(all & -all);
     SCOPED_TRACE(packet_instruction_set());
-    expect_same_entries<Walker>(groups, mesh, boundary);
+    expect_same_entries<Walker>(groups, of_each, mesh, boundary);
   }
   limit_packet_instruction_sets(0);
 }
